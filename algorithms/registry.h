@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/lod_method.h"
+#include "scenarios/suite.h"
+
+namespace plumbline {
+
+/// What a method promises; laws and oracles hold it to these, and list the others as "not promised".
+enum class Promise {
+  conforming,         ///< covers its domain once, edge to edge, at equal heights
+  monotone_in_tau,    ///< a larger threshold never gives more triangles
+  idempotent,         ///< a second update with the same camera changes nothing
+  path_independent,   ///< the mesh depends on the camera, not on the flight before it
+  exact_at_zero,      ///< at a vanishing threshold every sample is met
+  symmetric,          ///< commutes with the eight symmetries of the grid
+  threshold_blind,    ///< ignores the threshold (one run serves all)
+};
+std::string_view promise_name(Promise promise);
+
+struct VariantDescription {
+  std::string name;  ///< without the method's id; "" is the published default
+  std::string summary;
+  std::vector<Promise> promises;
+};
+
+struct OptionDescription {
+  std::string name;
+  std::string summary;
+  OptionValue default_value;
+};
+
+/// One claim of the paper, as METHODS numbers it.
+struct ClaimDescription {
+  std::string id;  ///< "M4.C1"
+  std::string text;
+};
+
+/// A registry entry: one method with its variants.
+struct MethodDescription {
+  std::string id;        ///< "block_bintree"
+  std::string title;
+  std::string citation;  ///< authors, title, venue, year
+  std::string section;   ///< where in METHODS / the paper: "M4", "reference"
+  std::vector<VariantDescription> variants;  ///< first: the published default, name ""
+  std::vector<OptionDescription> options;
+  std::vector<ClaimDescription> claims;
+  /// `variant` is one of the names above; options are checked against `options` before the call.
+  std::function<std::unique_ptr<LodMethod>(std::string_view variant, const Options& options)> make;
+};
+
+/// All methods, in the order of the plumbline_add_method lines.
+const std::vector<MethodDescription>& registered_methods();
+
+/// A method with its variant chosen.
+struct MethodChoice {
+  const MethodDescription* method = nullptr;
+  const VariantDescription* variant = nullptr;
+  [[nodiscard]] bool promises(Promise promise) const;
+};
+
+/// Finds "id" or "id:variant" ("id:published" names the default too). Throws InputError naming the nearest known id.
+MethodChoice find_method(std::string_view full_id);
+
+/// Makes an unprepared instance. Throws InputError for an unknown option (naming the nearest) or a wrong type.
+std::unique_ptr<LodMethod> make_method(std::string_view full_id, const Options& options = {});
+
+/// Typed look-up with the description's default; for use inside `make`.
+double option_number(const Options& options, const std::string& name, double fallback);
+bool option_flag(const Options& options, const std::string& name, bool fallback);
+std::string option_text(const Options& options, const std::string& name, const std::string& fallback);
+
+}  // namespace plumbline

@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: The plumbline authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+# plumbline_fp: the floating-point rules that make results.json the same bytes everywhere.
+#   -ffp-contract=off   no fused multiply-add: it exists on some x86-64 levels only, and rounds differently.
+#   no -ffast-math, no -march: the reader of a diff must not wonder which bits a machine chose.
+#   -fno-math-errno     lets sqrt be one instruction; sqrt is correctly rounded by IEEE 754, so no bit moves.
+add_library(plumbline_fp INTERFACE)
+target_compile_options(plumbline_fp INTERFACE -ffp-contract=off -fno-math-errno)
+
+# plumbline_warnings: for our own sources only, never exported.
+add_library(plumbline_warnings INTERFACE)
+target_compile_options(plumbline_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                                    -Wold-style-cast -Werror)
+if(PLUMBLINE_SANITIZE)
+  target_compile_options(plumbline_fp INTERFACE -fsanitize=${PLUMBLINE_SANITIZE} -fno-omit-frame-pointer
+                                                -fno-sanitize-recover=all)
+  target_link_options(plumbline_fp INTERFACE -fsanitize=${PLUMBLINE_SANITIZE})
+endif()
+
+# plumbline_library(<folder> SOURCES … LINKS … PRIVATE_LINKS …): one static library per folder, alias plumbline::<folder>.
+function(plumbline_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(plumbline_${name} STATIC ${ARG_SOURCES})
+  add_library(plumbline::${name} ALIAS plumbline_${name})
+  target_compile_features(plumbline_${name} PUBLIC cxx_std_20)
+  # Sources include each other from the root: "oracle/conformity.h".
+  target_include_directories(plumbline_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                      $<INSTALL_INTERFACE:include/plumbline>)
+  target_link_libraries(plumbline_${name} PUBLIC plumbline_fp ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS}
+                                          $<BUILD_INTERFACE:plumbline_warnings>)
+endfunction()

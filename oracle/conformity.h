@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "oracle/finding.h"
+#include "scenarios/camera.h"
+#include "scenarios/mesh.h"
+
+namespace plumbline::oracle {
+
+/// How many of each finding; complete, whatever cap a list has. A T-vertex with a gap counts under both t_junction and
+/// crack (it is one finding in the list): the definitions of ORACLES O1 name it in both.
+struct ConformityCounts {
+  std::size_t crack = 0, t_junction = 0, fold_over = 0, degenerate = 0, hole = 0, overlap = 0, outline = 0,
+              non_manifold = 0, duplicate = 0, non_finite = 0, bad_index = 0, unused_vertex = 0;
+  friend bool operator==(const ConformityCounts&, const ConformityCounts&) = default;
+  [[nodiscard]] std::size_t total() const;
+};
+
+struct ConformityReport {
+  ConformityCounts counts;
+  std::vector<Finding> findings;  ///< sorted by code, then place (x, y, z), then witnesses
+  double largest_gap_m = 0;       ///< over cracks
+  [[nodiscard]] bool clean() const { return counts.total() == 0; }
+};
+
+/// O1: decides exactly whether the mesh covers the domain once, edge to edge and at equal heights (ORACLES O1). No
+/// tolerance: every decision is made by exact predicates on the given doubles. Figures that only describe a finding
+/// (area, gap) are rounded. Linear in triangles for meshes that match by index; geometry sees the left-overs alone.
+ConformityReport check_conformity(const Mesh& mesh, const PlanDomain& domain);
+
+}  // namespace plumbline::oracle

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "oracle/finding.h"
+#include "scenarios/camera.h"
+#include "scenarios/terrain.h"
+#include "scenarios/trajectory.h"
+
+namespace plumbline::properties {
+
+/// All that a law is judged on; a case file holds exactly this (and the finding expected).
+struct LawInput {
+  std::string method;              ///< full id with variant
+  Options options;
+  Terrain terrain;
+  std::vector<CameraPose> poses;   ///< a flight; the last pose is the one judged
+  double fov_y_deg = 60;
+  int width_px = 1280, height_px = 720;
+  double threshold_px = 1;
+};
+
+/// The outcome of one trial.
+struct LawOutcome {
+  enum class Kind {
+    held,
+    vacuous,   ///< the precondition did not hold, or nothing happened that the law speaks of
+    violated,
+  } kind = Kind::vacuous;
+  std::string what;  ///< violated: one line with places and sizes
+  std::optional<oracle::Finding> finding;
+};
+
+/// A law: what must hold for every terrain, camera and threshold, for the methods that promise it.
+struct Law {
+  std::string id;        ///< "conforming", "M4_C3_split_test_is_monotone", …
+  std::string statement; ///< with its quantifiers
+  std::string source;    ///< paper, section, or METHODS id
+  /// Whether the law speaks of this method at all; and whether the method promises it. A law that applies but is not
+  /// promised is measured, not held against the method.
+  std::function<bool(const MethodChoice&)> applies;
+  std::function<bool(const MethodChoice&)> promised;
+  std::function<LawOutcome(const LawInput&)> check;
+};
+
+const std::vector<Law>& all_laws();
+/// Throws InputError naming the nearest known law.
+const Law& find_law(std::string_view id);
+
+}  // namespace plumbline::properties

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "oracle/conformity.h"
+#include "oracle/image.h"
+#include "oracle/shape.h"
+#include "oracle/vertical.h"
+#include "scenarios/camera.h"
+#include "scenarios/raster.h"
+
+/// What a run found out, as plain data: the only thing that reports see.
+namespace plumbline::verdict {
+
+/// Work and change of one frame; `entered` and `left` count vertices against the frame before.
+struct CounterFigures {
+  std::uint64_t visited = 0, evaluated = 0, split = 0, merged = 0, entered = 0, left = 0;
+};
+
+struct FrameVerdict {
+  int index = 0;
+  Camera camera;
+  std::size_t triangles = 0;
+  std::size_t vertices = 0;
+  oracle::ConformityCounts conformity;
+  std::size_t visible_cracks = 0;   ///< cracks (with a gap) that show in the picture
+  double largest_gap_m = 0;
+  double largest_gap_px = 0;        ///< over visible cracks
+  oracle::VerticalError vertical_m;
+  oracle::ImageError image;
+  oracle::PixelFigure pop_px;       ///< count 0 on the first frame
+  oracle::ShapeReport shape;
+  CounterFigures counters;
+  std::vector<oracle::Finding> findings;  ///< the worst few, capped at kFindingsListed; counts are complete
+  static constexpr std::size_t kFindingsListed = 8;
+};
+
+/// Over a trajectory: counts are summed; max, p999, p99 and gaps are the worst frame's; rms and mean pool all pixels
+/// (vertical: all frames' areas); over_threshold pools pixels; triangles and vertices are means, with the extremes.
+struct RunSummary {
+  std::size_t frames = 0;
+  double triangles = 0, vertices = 0;
+  std::size_t triangles_min = 0, triangles_max = 0;
+  oracle::ConformityCounts conformity;
+  std::size_t visible_cracks = 0;
+  double largest_gap_m = 0, largest_gap_px = 0;
+  oracle::VerticalError vertical_m;
+  oracle::ImageError image;
+  oracle::PixelFigure pop_px;
+  oracle::ShapeReport shape;
+  CounterFigures counters;
+  int worst_frame = 0;  ///< index of the frame with the largest p99 displacement
+};
+
+struct RunVerdict {
+  std::string id;          ///< "<terrain>.<trajectory>.<method>.<threshold>"
+  std::string terrain;
+  std::string trajectory;
+  std::string method;
+  double threshold_px = 0;
+  std::vector<FrameVerdict> frames;
+  RunSummary summary;
+};
+
+struct TerrainFacts {
+  std::string id;
+  int columns = 0, rows = 0;
+  double spacing_m = 0, lowest_m = 0, highest_m = 0;
+  double diagonal_ambiguity_m = 0;  ///< largest gap between the two ways to split a cell
+};
+
+struct GateVerdict {
+  std::string name;   ///< "block_bintree: crack == 0"
+  std::string run;    ///< run id
+  std::string limit;  ///< "<= 1 tau (2 px)"
+  double value = 0;
+  bool pass = false;
+};
+
+struct SuiteVerdict {
+  std::string suite;
+  int width_px = 0, height_px = 0;
+  double fov_y_deg = 0;
+  std::vector<TerrainFacts> terrains;
+  std::vector<RunVerdict> runs;    ///< terrain, trajectory, method, threshold: the suite file's order
+  std::vector<GateVerdict> gates;  ///< run order, then gate order
+  std::vector<std::string> vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
+  bool interrupted = false;
+  [[nodiscard]] bool pass() const;
+};
+
+/// Everything a clock measured, and on what machine.
+struct RunTiming {
+  std::string run;
+  double prepare_s = 0;
+  std::vector<double> update_ms;  ///< one a frame
+  double oracle_s = 0;
+};
+struct SuiteTiming {
+  std::string machine, compiler, build_type;
+  int jobs = 0;
+  double total_s = 0;
+  std::vector<RunTiming> runs;
+};
+
+/// The pictures of one frame of one run, all of the viewport's size.
+struct FramePictures {
+  std::string run;
+  int frame = 0;
+  double threshold_px = 0;
+  Raster shaded;           ///< the method's mesh with wireframe; shade in [0, 1], NaN sky
+  Raster reference;        ///< the full surface, likewise, without wireframe
+  Raster displacement_px;  ///< NaN where nothing was judged
+};
+
+}  // namespace plumbline::verdict

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenarios/terrain_source.h"
+#include "scenarios/trajectory.h"
+
+namespace plumbline {
+
+/// A method's option as the suite file gives it.
+using OptionValue = std::variant<bool, double, std::string>;
+using Options = std::map<std::string, OptionValue>;  // ordered: options are printed
+
+/// One `[[method]]`: `id` may carry a variant ("block_bintree:tri_cull").
+struct MethodSpec {
+  std::string id;
+  std::vector<double> thresholds_px;  ///< each > 0
+  Options options;
+};
+
+/// One limit of `[gate]`: the figure's path in a run's summary ("crack", "displacement_px.p99") against a bound.
+struct GateSpec {
+  std::string figure;
+  std::string method;      ///< empty: every method
+  std::string comparison;  ///< "<=", "<", "==", ">=", ">"
+  double bound = 0;
+  bool times_tau = false;  ///< bound is a multiple of the run's threshold
+  std::string text;        ///< as written, for reports: "displacement_px.p99 <= 1 tau"
+};
+
+struct Suite {
+  std::string name;
+  std::filesystem::path path;  ///< where it was read from; not part of any result
+  int width_px = 1280;
+  int height_px = 720;
+  double fov_y_deg = 60;
+  std::vector<TerrainSource> terrains;
+  std::vector<TrajectorySpec> trajectories;
+  std::vector<MethodSpec> methods;
+  std::vector<GateSpec> gates;
+};
+
+/// Reads a suite file (TOML, CONTRACT "Suite file"). Throws InputError naming file, line and the nearest known key for
+/// an unknown key, a wrong type, a duplicate id, a threshold that is not positive and finite, an empty list.
+Suite load_suite(const std::filesystem::path& path);
+
+}  // namespace plumbline
