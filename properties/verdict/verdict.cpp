@@ -1,3 +1,252 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "properties/verdict/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "scenarios/error.h"
+
+namespace plumbline::verdict {
+namespace {
+
+/// Whether `value` is the worse of two maxima: larger, or not a number where the other is one.
+bool worse(double value, double than) { return value > than || (std::isnan(value) && !std::isnan(than)); }
+void raise(double& maximum, double value) {
+  if (worse(value, maximum)) maximum = value;
+}
+
+void add(oracle::ConformityCounts& sum, const oracle::ConformityCounts& counts) {
+  sum.crack += counts.crack;
+  sum.t_junction += counts.t_junction;
+  sum.fold_over += counts.fold_over;
+  sum.degenerate += counts.degenerate;
+  sum.hole += counts.hole;
+  sum.overlap += counts.overlap;
+  sum.outline += counts.outline;
+  sum.non_manifold += counts.non_manifold;
+  sum.duplicate += counts.duplicate;
+  sum.non_finite += counts.non_finite;
+  sum.bad_index += counts.bad_index;
+  sum.unused_vertex += counts.unused_vertex;
+}
+
+void add(CounterFigures& sum, const CounterFigures& counters) {
+  sum.visited += counters.visited;
+  sum.evaluated += counters.evaluated;
+  sum.split += counters.split;
+  sum.merged += counters.merged;
+  sum.entered += counters.entered;
+  sum.left += counters.left;
+}
+
+/// Mean and root mean square of frames, each weighted by how much was judged in it.
+class Pool {
+ public:
+  void add(double mean, double rms, double weight) {
+    if (weight == 0) return;
+    weight_ += weight;
+    sum_ += mean * weight;
+    squares_ += rms * rms * weight;
+  }
+  [[nodiscard]] double mean() const { return weight_ == 0 ? 0 : sum_ / weight_; }
+  [[nodiscard]] double rms() const { return weight_ == 0 ? 0 : std::sqrt(squares_ / weight_); }
+
+ private:
+  double weight_ = 0, sum_ = 0, squares_ = 0;
+};
+
+/// Pools one per-pixel figure of all frames.
+class PixelPool {
+ public:
+  void add(const oracle::PixelFigure& figure) {
+    if (figure.count == 0) return;
+    raise(worst_.max, figure.max);
+    raise(worst_.p999, figure.p999);
+    raise(worst_.p99, figure.p99);
+    worst_.count += figure.count;
+    pool_.add(figure.mean, figure.rms, static_cast<double>(figure.count));
+  }
+  [[nodiscard]] oracle::PixelFigure figure() const {
+    oracle::PixelFigure all = worst_;
+    all.mean = pool_.mean();
+    all.rms = pool_.rms();
+    return all;
+  }
+
+ private:
+  oracle::PixelFigure worst_;
+  Pool pool_;
+};
+
+void summarize_image(const std::vector<FrameVerdict>& frames, RunSummary& all) {
+  PixelPool displacement, depth, pop;
+  Pool over_threshold;
+  double worst_p99 = -1;
+  for (const FrameVerdict& frame : frames) {
+    const oracle::ImageError& image = frame.image;
+    displacement.add(image.displacement_px);
+    depth.add(image.depth_rel);
+    pop.add(frame.pop_px);
+    over_threshold.add(image.over_threshold, 0, static_cast<double>(image.displacement_px.count));
+    all.image.uncovered_px += image.uncovered_px;
+    all.image.silhouette_pixels += image.silhouette_pixels;
+    raise(all.image.silhouette_max_px, image.silhouette_max_px);
+    if (image.displacement_px.count > 0 && worse(image.displacement_px.p99, worst_p99)) {
+      worst_p99 = image.displacement_px.p99;
+      all.worst_frame = frame.index;
+    }
+  }
+  all.image.displacement_px = displacement.figure();
+  all.image.depth_rel = depth.figure();
+  all.image.over_threshold = over_threshold.mean();
+  all.pop_px = pop.figure();
+}
+
+void summarize_vertical(const std::vector<FrameVerdict>& frames, oracle::VerticalError& all) {
+  Pool pool;
+  for (const FrameVerdict& frame : frames) {
+    const oracle::VerticalError& vertical = frame.vertical_m;
+    if (vertical.area_m2 == 0) continue;
+    if (all.area_m2 == 0 || worse(vertical.max, all.max)) {
+      all.max = vertical.max;
+      all.at = vertical.at;
+    }
+    if (all.area_m2 == 0 || worse(vertical.certain_max, all.certain_max)) {
+      all.certain_max = vertical.certain_max;
+      all.certain_at = vertical.certain_at;
+    }
+    all.area_m2 += vertical.area_m2;
+    pool.add(vertical.mean, vertical.rms, vertical.area_m2);
+  }
+  all.mean = pool.mean();
+  all.rms = pool.rms();
+}
+
+void summarize_shape(const std::vector<FrameVerdict>& frames, oracle::ShapeReport& all) {
+  Pool quality, valence;
+  double triangles = 0, fans = 0;
+  for (const FrameVerdict& frame : frames) {
+    if (frame.triangles == 0) continue;
+    const oracle::ShapeReport& shape = frame.shape;
+    const auto weight = static_cast<double>(frame.triangles);
+    all.min_quality = triangles == 0 ? shape.min_quality : std::min(all.min_quality, shape.min_quality);
+    all.least_angle_deg =
+        triangles == 0 ? shape.least_angle_deg : std::min(all.least_angle_deg, shape.least_angle_deg);
+    all.slivers += shape.slivers;
+    all.max_valence = std::max(all.max_valence, shape.max_valence);
+    quality.add(shape.mean_quality, 0, weight);
+    valence.add(shape.mean_valence, 0, static_cast<double>(frame.vertices));
+    triangles += weight;
+    if (shape.mean_fan_length > 0) fans += weight / shape.mean_fan_length;
+  }
+  all.mean_quality = quality.mean();
+  all.mean_valence = valence.mean();
+  all.mean_fan_length = fans == 0 ? 0 : triangles / fans;
+}
+
+template <auto Count>
+double conformity(const RunSummary& summary) {
+  return static_cast<double>(summary.conformity.*Count);
+}
+template <auto Member>
+double vertical(const RunSummary& summary) {
+  return summary.vertical_m.*Member;
+}
+template <auto Member>
+double displacement(const RunSummary& summary) {
+  return summary.image.displacement_px.*Member;
+}
+
+using Counts = oracle::ConformityCounts;
+using Vertical = oracle::VerticalError;
+using Pixels = oracle::PixelFigure;
+
+constexpr Figure kFigures[] = {
+    {"triangles", "count", [](const RunSummary& s) { return s.triangles; }},
+    {"triangles_max", "count", [](const RunSummary& s) { return static_cast<double>(s.triangles_max); }},
+    {"crack", "count", conformity<&Counts::crack>},
+    {"t_junction", "count", conformity<&Counts::t_junction>},
+    {"fold_over", "count", conformity<&Counts::fold_over>},
+    {"degenerate", "count", conformity<&Counts::degenerate>},
+    {"hole", "count", conformity<&Counts::hole>},
+    {"overlap", "count", conformity<&Counts::overlap>},
+    {"outline", "count", conformity<&Counts::outline>},
+    {"non_manifold", "count", conformity<&Counts::non_manifold>},
+    {"duplicate", "count", conformity<&Counts::duplicate>},
+    {"non_finite", "count", conformity<&Counts::non_finite>},
+    {"bad_index", "count", conformity<&Counts::bad_index>},
+    {"unused_vertex", "count", conformity<&Counts::unused_vertex>},
+    {"visible_cracks", "count", [](const RunSummary& s) { return static_cast<double>(s.visible_cracks); }},
+    {"largest_gap_m", "m", [](const RunSummary& s) { return s.largest_gap_m; }},
+    {"largest_gap_px", "px", [](const RunSummary& s) { return s.largest_gap_px; }},
+    {"vertical_m.max", "m", vertical<&Vertical::max>},
+    {"vertical_m.certain_max", "m", vertical<&Vertical::certain_max>},
+    {"vertical_m.rms", "m", vertical<&Vertical::rms>},
+    {"vertical_m.mean", "m", vertical<&Vertical::mean>},
+    {"displacement_px.max", "px", displacement<&Pixels::max>},
+    {"displacement_px.p999", "px", displacement<&Pixels::p999>},
+    {"displacement_px.p99", "px", displacement<&Pixels::p99>},
+    {"displacement_px.rms", "px", displacement<&Pixels::rms>},
+    {"displacement_px.mean", "px", displacement<&Pixels::mean>},
+    {"displacement_px.over_threshold", "share", [](const RunSummary& s) { return s.image.over_threshold; }},
+    {"displacement_px.uncovered_px", "px",
+     [](const RunSummary& s) { return static_cast<double>(s.image.uncovered_px); }},
+    {"depth_rel.max", "ratio", [](const RunSummary& s) { return s.image.depth_rel.max; }},
+    {"depth_rel.p99", "ratio", [](const RunSummary& s) { return s.image.depth_rel.p99; }},
+    {"silhouette_px.pixels", "px",
+     [](const RunSummary& s) { return static_cast<double>(s.image.silhouette_pixels); }},
+    {"silhouette_px.max", "px", [](const RunSummary& s) { return s.image.silhouette_max_px; }},
+    {"pop_px.max", "px", [](const RunSummary& s) { return s.pop_px.max; }},
+    {"pop_px.p99", "px", [](const RunSummary& s) { return s.pop_px.p99; }},
+    {"shape.slivers", "count", [](const RunSummary& s) { return static_cast<double>(s.shape.slivers); }},
+    {"shape.min_quality", "quality", [](const RunSummary& s) { return s.shape.min_quality; }},
+};
+
+}  // namespace
+
+RunSummary summarize(const std::vector<FrameVerdict>& frames) {
+  RunSummary all;
+  all.frames = frames.size();
+  if (frames.empty()) return all;
+  all.worst_frame = frames.front().index;
+  all.triangles_min = frames.front().triangles;
+  double triangles = 0, vertices = 0;
+  for (const FrameVerdict& frame : frames) {
+    triangles += static_cast<double>(frame.triangles);
+    vertices += static_cast<double>(frame.vertices);
+    all.triangles_min = std::min(all.triangles_min, frame.triangles);
+    all.triangles_max = std::max(all.triangles_max, frame.triangles);
+    add(all.conformity, frame.conformity);
+    all.visible_cracks += frame.visible_cracks;
+    raise(all.largest_gap_m, frame.largest_gap_m);
+    raise(all.largest_gap_px, frame.largest_gap_px);
+    add(all.counters, frame.counters);
+  }
+  all.triangles = triangles / static_cast<double>(frames.size());
+  all.vertices = vertices / static_cast<double>(frames.size());
+  summarize_image(frames, all);
+  summarize_vertical(frames, all.vertical_m);
+  summarize_shape(frames, all.shape);
+  return all;
+}
+
+std::span<const Figure> figures() { return kFigures; }
+
+double figure_value(const RunSummary& summary, std::string_view path) {
+  const auto found = std::ranges::find(kFigures, path, &Figure::path);
+  if (found != std::end(kFigures)) return found->value(summary);
+  std::string known;
+  for (const Figure& figure : kFigures) known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.path);
+  throw InputError(fmt::format("there is no figure \"{}\"; the figures are {}", path, known));
+}
+
+bool SuiteVerdict::pass() const {
+  return !interrupted && vacuous.empty() && !runs.empty() &&
+         std::ranges::all_of(gates, [](const GateVerdict& gate) { return gate.pass; });
+}
+
+}  // namespace plumbline::verdict

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "oracle/conformity.h"
@@ -27,20 +29,21 @@ struct FrameVerdict {
   std::size_t triangles = 0;
   std::size_t vertices = 0;
   oracle::ConformityCounts conformity;
-  std::size_t visible_cracks = 0;   ///< cracks (with a gap) that show in the picture
+  std::size_t visible_cracks = 0;  ///< cracks (with a gap) that show in the picture
   double largest_gap_m = 0;
-  double largest_gap_px = 0;        ///< over visible cracks
+  double largest_gap_px = 0;  ///< over visible cracks
   oracle::VerticalError vertical_m;
   oracle::ImageError image;
-  oracle::PixelFigure pop_px;       ///< count 0 on the first frame
+  oracle::PixelFigure pop_px;  ///< count 0 on the first frame
   oracle::ShapeReport shape;
   CounterFigures counters;
   std::vector<oracle::Finding> findings;  ///< the worst few, capped at kFindingsListed; counts are complete
   static constexpr std::size_t kFindingsListed = 8;
 };
 
-/// Over a trajectory: counts are summed; max, p999, p99 and gaps are the worst frame's; rms and mean pool all pixels
-/// (vertical: all frames' areas); over_threshold pools pixels; triangles and vertices are means, with the extremes.
+/// Over a trajectory: counts are summed; max, p999, p99 and gaps are the worst frame's; rms and mean pool all
+/// pixels (vertical: all frames' areas); over_threshold pools pixels; triangles and vertices are means, with
+/// the extremes.
 struct RunSummary {
   std::size_t frames = 0;
   double triangles = 0, vertices = 0;
@@ -53,11 +56,28 @@ struct RunSummary {
   oracle::PixelFigure pop_px;
   oracle::ShapeReport shape;
   CounterFigures counters;
-  int worst_frame = 0;  ///< index of the frame with the largest p99 displacement
+  int worst_frame = 0;  ///< index of the frame with the largest p99 displacement, the first among equals
 };
 
+/// A run's figures over its trajectory, by the rules above. A frame without judged pixels, area or triangles
+/// carries no weight in a mean; a figure that is not a number stays one, so that no gate can pass over it.
+/// Sums in frame order.
+RunSummary summarize(const std::vector<FrameVerdict>& frames);
+
+/// A figure of a run that a gate may limit, a chart may draw and a table may list.
+struct Figure {
+  std::string_view
+      path;  ///< "crack", "displacement_px.p99": the key in results.json (conformity's counts stand alone)
+  std::string_view unit;  ///< "count", "m", "px", "share", "ratio", "quality"
+  double (*value)(const RunSummary&);
+};
+/// Every figure, in the order of results.json.
+std::span<const Figure> figures();
+/// One figure of a run. Throws InputError naming all figures if there is none of that path.
+double figure_value(const RunSummary& summary, std::string_view path);
+
 struct RunVerdict {
-  std::string id;          ///< "<terrain>.<trajectory>.<method>.<threshold>"
+  std::string id;  ///< "<terrain>.<trajectory>.<method>.<threshold>"
   std::string terrain;
   std::string trajectory;
   std::string method;
@@ -88,8 +108,11 @@ struct SuiteVerdict {
   std::vector<TerrainFacts> terrains;
   std::vector<RunVerdict> runs;    ///< terrain, trajectory, method, threshold: the suite file's order
   std::vector<GateVerdict> gates;  ///< run order, then gate order
-  std::vector<std::string> vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
+  std::vector<std::string>
+      vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
   bool interrupted = false;
+  /// Every gate holds, nothing was vacuous, nothing is missing. A suite without a run has judged nothing: no
+  /// pass.
   [[nodiscard]] bool pass() const;
 };
 
