@@ -15,24 +15,26 @@
 namespace plumbline {
 
 struct RunOptions {
-  int jobs = 0;                         ///< 0: as many as the machine has cores
-  std::vector<std::string> methods;     ///< keep only these of the suite (full ids); empty: all
-  std::string isa;                      ///< Embree's instruction set, "" for the best
+  int jobs = 0;                                      ///< 0: as many as the machine has cores
+  std::vector<std::string> methods;                  ///< keep only these of the suite (full ids); empty: all
+  std::string isa;                                   ///< Embree's instruction set, "" for the best
   std::optional<std::filesystem::path> mesh_folder;  ///< write <run>/<frame>.ply there
   bool pictures = true;
-  std::function<void(std::size_t done, std::size_t total)> progress;  ///< frames judged; called from any thread
+  std::function<void(std::size_t done, std::size_t total)>
+      progress;                                  ///< frames judged; called from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< polled between frames
 };
 
 struct SuiteOutcome {
   verdict::SuiteVerdict verdict;
   verdict::SuiteTiming timing;
-  std::vector<verdict::FramePictures> pictures;  ///< for each terrain and method: the worst frame at the middle threshold
+  std::vector<verdict::FramePictures>
+      pictures;  ///< for each terrain and method: the worst frame at the middle threshold
 };
 
-/// Flies every method over every terrain, trajectory and threshold of the suite and judges each frame with every
-/// oracle. The verdict depends on the suite alone, never on jobs, build or machine. Throws InputError for a terrain
-/// that cannot be read or a method that cannot take it.
+/// Flies every method over every terrain, trajectory and threshold of the suite and judges each frame with
+/// every oracle. The verdict depends on the suite alone, never on jobs, build or machine. Throws InputError
+/// for a terrain that cannot be read or a method that cannot take it.
 SuiteOutcome run_suite(const Suite& suite, const RunOptions& options);
 
 }  // namespace plumbline

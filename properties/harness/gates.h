@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "algorithms/registry.h"
+#include "properties/verdict/verdict.h"
+#include "scenarios/suite.h"
+
+namespace plumbline {
+
+/// Holds every run to the suite's limits. A gate that names a method replaces the general gate on the same
+/// figure for that method.
+std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& gates,
+                                              const std::vector<verdict::RunVerdict>& runs);
+
+/// What passed without having been judged (ORACLES, "Never vacuous"), one line each: no run at all, a run
+/// without frames or triangles, no pixel or area to measure, a method that draws one level of detail whatever
+/// the threshold.
+std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& runs);
+
+}  // namespace plumbline
