@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "algorithms/registry.h"
+#include "cli/commands.h"
+#include "oracle/finding.h"
+#include "properties/laws/law.h"
+#include "scenarios/error.h"
+#include "scenarios/nearest.h"
+#include "scenarios/terrain_source.h"
+#include "scenarios/trajectory.h"
+
+namespace plumbline::cli {
+namespace {
+
+void line(const std::string& name, const std::string& summary, const std::string& source = {}) {
+  fmt::print("  {:<34} {}{}\n", name, summary, source.empty() ? "" : fmt::format("  [{}]", source));
+}
+
+void list_methods() {
+  fmt::print("methods\n");
+  for (const MethodDescription& method : registered_methods()) {
+    for (const VariantDescription& variant : method.variants) {
+      const bool published = variant.name.empty();
+      line(published ? method.id : fmt::format("{}:{}", method.id, variant.name),
+           published ? method.title : variant.summary, method.section);
+    }
+  }
+}
+
+void list_terrains() {
+  fmt::print("terrains (generators; `file` takes anything that GDAL opens)\n");
+  for (const GeneratorDescription& generator : terrain_generators()) line(generator.name, generator.summary);
+}
+
+void list_trajectories() {
+  fmt::print("trajectories\n");
+  for (const TrajectoryKind& kind : trajectory_kinds()) line(kind.name, kind.summary);
+}
+
+void list_laws() {
+  fmt::print("laws\n");
+  for (const properties::Law& law : properties::all_laws()) line(law.id, law.statement, law.source);
+}
+
+void list_oracles() {
+  fmt::print("oracles\n");
+  line("conformity", "covers its domain once, edge to edge, at equal heights; exact", "ORACLES O1");
+  line("vertical", "sup-norm, RMS and mean of the height error over the whole overlay, not sampled",
+       "ORACLES O2");
+  line("image", "displacement, depth, silhouette and popping in pixels, by ray casting", "ORACLES O3");
+  line("shape", "triangle quality, least angle, slivers, valence", "ORACLES O6");
+  fmt::print("findings\n");
+  for (const oracle::FindingDescription& finding : oracle::finding_catalogue()) {
+    line(fmt::format("{} {}", static_cast<int>(finding.code), finding.name), std::string(finding.definition));
+  }
+}
+
+void list(const std::string& what) {
+  struct Shelf {
+    const char* name;
+    void (*print)();
+  };
+  static constexpr Shelf kShelves[] = {{"methods", list_methods},
+                                       {"terrains", list_terrains},
+                                       {"trajectories", list_trajectories},
+                                       {"laws", list_laws},
+                                       {"oracles", list_oracles}};
+  std::vector<std::string> names;
+  bool found = false;
+  for (const Shelf& shelf : kShelves) {
+    names.emplace_back(shelf.name);
+    if (what.empty() || what == shelf.name) {
+      shelf.print();
+      found = true;
+    }
+  }
+  if (!found) throw InputError(unknown_name("list", what, names));
+}
+
+}  // namespace
+
+void add_list(CLI::App& program, int& status) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* command = program.add_subcommand("list", "What there is, one line each");
+  command->add_option("what", *what, "methods, terrains, trajectories, laws or oracles; default: all");
+  command->callback([what, &status] {
+    list(*what);
+    status = kPass;
+  });
+}
+
+}  // namespace plumbline::cli

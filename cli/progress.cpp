@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "cli/progress.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace plumbline::cli {
+
+ProgressLine::ProgressLine(std::string what, std::string unit, bool quiet)
+    : what_(std::move(what)),
+      unit_(std::move(unit)),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
+      last_(start_) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_ && terminal_) fmt::print(stderr, "\n");
+}
+
+void ProgressLine::show(std::size_t done, std::size_t total) {
+  if (quiet_) return;
+  const std::lock_guard lock(mutex_);
+  if (done < best_) return;  // a slower thread reports late
+  best_ = done;
+  const Clock::time_point now = Clock::now();
+  const double pause_s = terminal_ ? 0.1 : 5.0;
+  if (done < total && std::chrono::duration<double>(now - last_).count() < pause_s) return;
+  last_ = now;
+  shown_ = true;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  const double rate = elapsed_s > 0 ? static_cast<double>(done) / elapsed_s : 0;
+  const double left_s = rate > 0 ? static_cast<double>(total - done) / rate : 0;
+  const std::string line =
+      fmt::format("{}: {} of {} {}, {:.1f} a second, {:.0f} s left", what_, done, total, unit_, rate, left_s);
+  if (terminal_) {
+    fmt::print(stderr, "\r{}\x1b[K", line);
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
+  std::fflush(stderr);
+}
+
+}  // namespace plumbline::cli

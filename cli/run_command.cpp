@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "properties/harness/run_suite.h"
+#include "reports/report.h"
+#include "scenarios/error.h"
+#include "scenarios/whole_file.h"
+
+namespace plumbline::cli {
+namespace {
+
+struct RunArguments {
+  std::string suite;
+  std::string out = "out";
+  int jobs = 0;
+  std::vector<std::string> methods;
+  std::string isa;
+  bool dump_meshes = false;
+  bool no_pictures = false;
+  bool quiet = false;
+};
+
+/// A report that cannot be written should be known before the flights, not after.
+void probe_writable(const std::filesystem::path& folder) {
+  const std::filesystem::path probe = folder / ".plumbline-probe";
+  write_whole_file(probe, "");
+  std::filesystem::remove(probe);
+}
+
+int run(const RunArguments& arguments) {
+  const Suite suite = load_suite(arguments.suite);
+  const std::filesystem::path out = arguments.out;
+  const bool existed = std::filesystem::exists(out);
+  probe_writable(out);
+
+  RunOptions options;
+  options.jobs = arguments.jobs;
+  options.methods = arguments.methods;
+  options.isa = arguments.isa;
+  options.pictures = !arguments.no_pictures;
+  options.cancelled = &interrupted();
+  if (arguments.dump_meshes) options.mesh_folder = out / "meshes";
+  SuiteOutcome outcome;
+  try {
+    ProgressLine line(suite.name, "frames", arguments.quiet);
+    options.progress = [&line](std::size_t done, std::size_t total) { line.show(done, total); };
+    outcome = run_suite(suite, options);
+  } catch (const InputError&) {
+    std::error_code ignored;
+    if (!existed)
+      std::filesystem::remove(out, ignored);  // only if empty: a refused run leaves nothing behind
+    throw;
+  }
+  reports::write_reports(outcome.verdict, outcome.timing, outcome.pictures, out,
+                         fmt::format("plumbline run {}", arguments.suite));
+  const bool pass = outcome.verdict.pass();
+  if (!arguments.quiet) {
+    fmt::print("{}", reports::summary_md(outcome.verdict, outcome.timing));
+    fmt::print("report: {}\n", (out / "report.html").string());
+  }
+  if (outcome.verdict.interrupted) return kInterrupted;
+  return pass ? kPass : kFinding;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& status) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = program.add_subcommand(
+      "run", "Fly a suite's methods over its terrains and trajectories, judge every frame, write a report");
+  command->add_option("suite", arguments->suite, "suite file (TOML)")->required();
+  command->add_option("--out", arguments->out, "folder for the report")->capture_default_str();
+  command->add_option("--jobs", arguments->jobs, "threads; 0: one a core")->check(CLI::Range(0, 1024));
+  command->add_option("--methods", arguments->methods, "only these methods of the suite")->delimiter(',');
+  command->add_option(
+      "--isa", arguments->isa,
+      "limit Embree's instruction set: sse2, avx, avx2, avx512 (the figures do not depend on it)");
+  command->add_flag("--dump-meshes", arguments->dump_meshes, "write every frame's mesh as PLY");
+  command->add_flag("--no-pictures", arguments->no_pictures, "leave out the images");
+  command->add_flag("--quiet", arguments->quiet, "print nothing but errors");
+  command->callback([arguments, &status] { status = run(*arguments); });
+}
+
+}  // namespace plumbline::cli

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "properties/harness/gates.h"
+#include "properties/harness/mesh_dump.h"
+#include "properties/harness/run_suite.h"
+#include "scenarios/error.h"
+
+namespace plumbline {
+namespace {
+
+/// Small, rugged, seen from four frames of a slow flight and one jump.
+Suite small_suite() {
+  Suite suite;
+  suite.name = "harness";
+  suite.width_px = 96;
+  suite.height_px = 64;
+  TerrainSource hills;
+  hills.id = "hills";
+  hills.generator = "fbm";
+  hills.size = 33;
+  hills.seed = 7;
+  suite.terrains = {hills};
+  TrajectorySpec orbit;
+  orbit.id = "orbit";
+  orbit.kind = "orbit";
+  orbit.frames = 4;
+  TrajectorySpec spin;
+  spin.id = "spin";
+  spin.kind = "spin";
+  spin.frames = 3;
+  suite.trajectories = {orbit, spin};
+  suite.methods = {{"full", {1}, {}}, {"restricted_quadtree", {2, 16}, {}}, {"block_bintree", {2, 16}, {}}};
+  return suite;
+}
+
+verdict::RunVerdict run_with(const std::string& method, double threshold_px, std::size_t cracks) {
+  verdict::RunVerdict run;
+  run.id = "t.f." + method;
+  run.method = method;
+  run.threshold_px = threshold_px;
+  run.summary.frames = 1;
+  run.summary.conformity.crack = cracks;
+  run.summary.image.displacement_px.p99 = 3;
+  return run;
+}
+
+TEST(RunSuite, RunsStandInTheSuitesOrderWithEveryFrameJudged) {
+  const SuiteOutcome outcome = run_suite(small_suite(), {});
+  ASSERT_EQ(outcome.verdict.runs.size(), 10u);  // 2 trajectories × (1 + 2 + 2) thresholds
+  EXPECT_EQ(outcome.verdict.runs[0].id, "hills.orbit.full.1");
+  EXPECT_EQ(outcome.verdict.runs[9].id, "hills.spin.block_bintree.16");
+  for (std::size_t r = 0; r < outcome.verdict.runs.size(); ++r) {
+    const verdict::RunVerdict& run = outcome.verdict.runs[r];
+    EXPECT_EQ(run.frames.size(), run.trajectory == "orbit" ? 4u : 3u) << run.id;
+    EXPECT_GT(run.summary.image.displacement_px.count, 0u) << run.id;
+    EXPECT_EQ(outcome.timing.runs[r].run, run.id);
+    EXPECT_EQ(outcome.timing.runs[r].update_ms.size(), run.frames.size());
+  }
+  EXPECT_THAT(outcome.verdict.vacuous, testing::IsEmpty());
+}
+
+TEST(RunSuite, FullGridIsTheReferenceSoItHasNoErrorAtAll) {
+  const SuiteOutcome outcome = run_suite(small_suite(), {});
+  const verdict::RunSummary& full = outcome.verdict.runs[0].summary;
+  EXPECT_EQ(full.conformity.total(), 0u);
+  EXPECT_EQ(full.vertical_m.max, 0);
+  EXPECT_EQ(full.image.displacement_px.max, 0);
+  EXPECT_EQ(full.image.silhouette_pixels, 0u);
+  EXPECT_EQ(full.pop_px.max, 0);
+  EXPECT_GT(full.pop_px.count, 0u);
+}
+
+TEST(RunSuite, VerticesThatEnterAndLeaveAccountForTheirNumber) {
+  const SuiteOutcome outcome = run_suite(small_suite(), {});
+  std::uint64_t moved = 0;
+  for (const verdict::RunVerdict& run : outcome.verdict.runs) {
+    std::uint64_t vertices = 0;
+    for (const verdict::FrameVerdict& frame : run.frames) {
+      vertices += frame.counters.entered;
+      vertices -= frame.counters.left;
+      EXPECT_EQ(vertices, frame.vertices) << run.id << " frame " << frame.index;
+      moved += frame.counters.left;
+    }
+  }
+  EXPECT_GT(moved, 0u) << "no vertex ever left: nothing was judged";
+}
+
+TEST(RunSuite, VerdictDoesNotDependOnJobs) {
+  RunOptions one;
+  one.jobs = 1;
+  RunOptions four;
+  four.jobs = 4;
+  const SuiteOutcome a = run_suite(small_suite(), one);
+  const SuiteOutcome b = run_suite(small_suite(), four);
+  ASSERT_EQ(a.verdict.runs.size(), b.verdict.runs.size());
+  for (std::size_t r = 0; r < a.verdict.runs.size(); ++r) {
+    const verdict::RunSummary& x = a.verdict.runs[r].summary;
+    const verdict::RunSummary& y = b.verdict.runs[r].summary;
+    EXPECT_EQ(x.triangles, y.triangles);
+    EXPECT_EQ(x.image.displacement_px.rms, y.image.displacement_px.rms);
+    EXPECT_EQ(x.vertical_m.rms, y.vertical_m.rms);
+    EXPECT_EQ(x.pop_px.mean, y.pop_px.mean);
+  }
+}
+
+TEST(RunSuite, DrawsTheWorstFrameOfEachMethod) {
+  const SuiteOutcome outcome = run_suite(small_suite(), {});
+  ASSERT_EQ(outcome.pictures.size(), 3u);
+  EXPECT_EQ(outcome.pictures[1].threshold_px, 16);
+  EXPECT_EQ(outcome.pictures[1].shaded.width, 96);
+  EXPECT_EQ(outcome.pictures[1].displacement_px.height, 64);
+}
+
+TEST(RunSuite, KeepsOnlyTheMethodsAskedFor) {
+  RunOptions options;
+  options.methods = {"full"};
+  EXPECT_EQ(run_suite(small_suite(), options).verdict.runs.size(), 2u);
+  options.methods = {"block_bintree:tri_cull"};
+  EXPECT_THROW(run_suite(small_suite(), options), InputError);
+}
+
+TEST(RunSuite, CancelledRunKeepsWholeFlightsOnly) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const SuiteOutcome outcome = run_suite(small_suite(), options);
+  EXPECT_TRUE(outcome.verdict.interrupted);
+  EXPECT_TRUE(outcome.verdict.runs.empty());
+  EXPECT_FALSE(outcome.verdict.pass());
+}
+
+TEST(Gates, MethodsOwnGateReplacesTheGeneralOne) {
+  const std::vector<GateSpec> gates{{"crack", "", "==", 0, false, "crack == 0"},
+                                    {"crack", "block_bintree", "<=", 5, false, "crack <= 5"}};
+  const auto judged = judge_gates(gates, {run_with("full", 1, 1), run_with("block_bintree", 1, 5)});
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_FALSE(judged[0].pass);
+  EXPECT_TRUE(judged[1].pass);
+  EXPECT_EQ(judged[1].value, 5);
+}
+
+TEST(Gates, LimitInTauScalesWithTheThreshold) {
+  const std::vector<GateSpec> gates{
+      {"displacement_px.p99", "", "<=", 1, true, "displacement_px.p99 <= 1 tau"}};
+  const auto judged = judge_gates(gates, {run_with("full", 2, 0), run_with("full", 4, 0)});
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_FALSE(judged[0].pass);  // 3 px against 2
+  EXPECT_TRUE(judged[1].pass);   // 3 px against 4
+}
+
+TEST(Vacuous, OneLevelOfDetailAtEveryThresholdIsAFailure) {
+  std::vector<verdict::RunVerdict> runs{run_with("restricted_quadtree", 1, 0),
+                                        run_with("restricted_quadtree", 8, 0)};
+  for (verdict::RunVerdict& run : runs) {
+    run.summary.triangles_min = run.summary.triangles_max = 32;
+    run.summary.image.displacement_px.count = 9;
+    run.summary.vertical_m.area_m2 = 1;
+  }
+  EXPECT_THAT(find_vacuous(runs), testing::ElementsAre(testing::HasSubstr("one level of detail")));
+  runs[1].summary.triangles_min = 30;
+  EXPECT_THAT(find_vacuous(runs), testing::IsEmpty());
+}
+
+TEST(Vacuous, NothingInThePictureIsAFailure) {
+  std::vector<verdict::RunVerdict> runs{run_with("full", 1, 0)};
+  runs[0].summary.triangles_max = 2;
+  runs[0].summary.vertical_m.area_m2 = 1;
+  EXPECT_THAT(find_vacuous(runs), testing::ElementsAre(testing::HasSubstr("no pixel")));
+  EXPECT_THAT(find_vacuous({}), testing::ElementsAre(testing::HasSubstr("no run")));
+}
+
+TEST(MeshDump, PlyHoldsTheVeryBits) {
+  Mesh mesh;
+  mesh.positions = {{0.1, 1e-310, -0.0}, {1, 0, 1e300}, {0, 1, 3}};
+  mesh.triangles = {{0, 1, 2}};
+  const std::string ply = to_ply(mesh);
+  const std::size_t body = ply.find("end_header\n") + std::strlen("end_header\n");
+  ASSERT_EQ(ply.size(), body + 3 * 24 + 13);
+  for (std::size_t v = 0; v < 3; ++v) {
+    EXPECT_EQ(std::memcmp(ply.data() + body + 24 * v, &mesh.positions[v], 24), 0);
+  }
+  EXPECT_EQ(ply[body + 72], 3);
+}
+
+}  // namespace
+}  // namespace plumbline
