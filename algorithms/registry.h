@@ -16,7 +16,7 @@ namespace plumbline {
 /// What a method promises; laws and oracles hold it to these, and list the others as "not promised".
 enum class Promise {
   conforming,         ///< covers its domain once, edge to edge, at equal heights
-  monotone_in_tau,    ///< a larger threshold never gives more triangles
+  monotone_in_tau,    ///< a larger threshold never gives more triangles on the same promised domain
   idempotent,         ///< a second update with the same camera changes nothing
   path_independent,   ///< the mesh depends on the camera, not on the flight before it
   exact_at_zero,      ///< at a vanishing threshold every sample is met

@@ -1,7 +1,57 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// full: the full-resolution grid, every frame. Role: zero error, the ceiling in triangles (METHODS, reference
+// methods).
+//
+// The mesh is the project's declared reference surface (each cell split from its (i, j) to its (i+1, j+1)
+// corner), so it has no paper. It is built once in prepare() and copied into every frame. Promises:
+// everything that holds when the camera is not looked at. Not promised: symmetric, since a mirror turns the
+// diagonals.
+#include <numeric>
+#include <utility>
+
 #include "algorithms/registry.h"
 
 namespace plumbline {
-MethodDescription describe_full() { return {}; }
+namespace {
+
+class Full final : public LodMethod {
+ public:
+  void prepare(const Terrain& terrain) override {
+    LodFrame made;
+    made.mesh = reference_mesh(terrain);
+    made.vertex_keys.resize(made.mesh.positions.size());
+    std::iota(made.vertex_keys.begin(), made.vertex_keys.end(), std::uint64_t{0});
+    made.domain = full_domain(terrain);
+    whole_ = std::make_shared<const LodFrame>(std::move(made));
+  }
+  // Nothing is decided, so the counters stay 0.
+  void update(const Camera&, LodFrame& frame) override { frame = *whole_; }
+  void reset() override {}
+  [[nodiscard]] std::unique_ptr<LodMethod> clone() const override { return std::make_unique<Full>(*this); }
+
+ private:
+  std::shared_ptr<const LodFrame> whole_;
+};
+
+}  // namespace
+
+MethodDescription describe_full() {
+  using enum Promise;
+  return {
+      .id = "full",
+      .title = "Full-resolution grid",
+      .citation = "none: the declared reference surface itself (METHODS, notation)",
+      .section = "reference",
+      .variants = {{"",
+                    "every sample, every frame",
+                    {conforming, monotone_in_tau, idempotent, path_independent, exact_at_zero,
+                     threshold_blind}}},
+      .options = {},
+      .claims = {},
+      .make = [](std::string_view, const Options&) { return std::make_unique<Full>(); },
+  };
+}
+
 }  // namespace plumbline

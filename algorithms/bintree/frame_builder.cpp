@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "algorithms/bintree/frame_builder.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace plumbline::bintree {
+
+FrameBuilder::FrameBuilder(const Terrain& terrain)
+    : terrain_(&terrain), slots_(terrain.heights_m.size(), 0) {}
+
+void FrameBuilder::begin(LodFrame& frame) {
+  frame.clear();
+  frame_ = &frame;
+  dropped_.clear();
+  if (stamp_ == std::numeric_limits<std::uint32_t>::max()) {
+    std::fill(slots_.begin(), slots_.end(), 0);
+    stamp_ = 0;
+  }
+  ++stamp_;
+}
+
+std::uint32_t FrameBuilder::vertex(GridPoint p) {
+  const std::size_t sample = terrain_->index(p.i, p.j);
+  std::uint64_t& slot = slots_[sample];
+  if (slot >> 32 == stamp_) return static_cast<std::uint32_t>(slot);
+  const auto index = static_cast<std::uint32_t>(frame_->mesh.positions.size());
+  slot = std::uint64_t{stamp_} << 32 | index;
+  frame_->mesh.positions.push_back(terrain_->point(p.i, p.j));
+  frame_->vertex_keys.push_back(sample);
+  return index;
+}
+
+void FrameBuilder::emit(const RightTriangle& triangle) {
+  const std::uint32_t apex = vertex(triangle.apex);
+  const std::uint32_t left = vertex(triangle.left);
+  const std::uint32_t right = vertex(triangle.right);
+  frame_->mesh.triangles.push_back({apex, left, right});
+}
+
+void FrameBuilder::finish() {
+  if (frame_->mesh.triangles.empty()) return;
+  frame_->domain = full_domain(*terrain_);
+  // Both triangles of a diamond become one loop. Sorted by split node, since the loops' order is part of the
+  // result.
+  const auto key = [](const RightTriangle& t) {
+    const GridPoint node = t.split_node();
+    return std::tuple(node.j, node.i, t.apex.j, t.apex.i);
+  };
+  std::sort(dropped_.begin(), dropped_.end(),
+            [&](const RightTriangle& a, const RightTriangle& b) { return key(a) < key(b); });
+  for (std::size_t k = 0; k < dropped_.size(); ++k) {
+    const RightTriangle& t = dropped_[k];
+    const bool whole = k + 1 < dropped_.size() && dropped_[k + 1].split_node() == t.split_node();
+    std::vector<Vec2> hole{plan(t.apex), plan(t.right)};  // clockwise
+    if (whole) hole.push_back(plan(dropped_[++k].apex));
+    hole.push_back(plan(t.left));
+    frame_->domain.loops.push_back(std::move(hole));
+  }
+}
+
+}  // namespace plumbline::bintree

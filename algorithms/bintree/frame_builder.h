@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "algorithms/bintree/cluster_grid.h"
+#include "algorithms/lod_method.h"
+
+namespace plumbline::bintree {
+
+/// Writes a frame from right triangles: finds each sample's vertex again without hashing, and keeps the plan
+/// domain. An array over all samples says in which frame a sample last became a vertex, so a frame costs what
+/// it emits.
+class FrameBuilder {
+ public:
+  FrameBuilder() = default;
+  explicit FrameBuilder(const Terrain& terrain);
+
+  /// Starts a frame: clears it and remembers it until finish().
+  void begin(LodFrame& frame);
+  /// Adds a triangle to the mesh.
+  void emit(const RightTriangle& triangle);
+  /// Leaves a triangle out of the mesh and out of the promised domain.
+  void drop(const RightTriangle& triangle) { dropped_.push_back(triangle); }
+  /// Writes the domain: the terrain's rectangle without what was dropped; nothing if no triangle was emitted.
+  void finish();
+
+ private:
+  std::uint32_t vertex(GridPoint p);
+  [[nodiscard]] Vec2 plan(GridPoint p) const {
+    return {p.i * terrain_->spacing_m, p.j * terrain_->spacing_m};
+  }
+
+  const Terrain* terrain_ = nullptr;
+  LodFrame* frame_ = nullptr;
+  std::uint32_t stamp_ = 0;           ///< number of the frame, from 1
+  std::vector<std::uint64_t> slots_;  ///< by sample: stamp of its last use << 32 | vertex index
+  std::vector<RightTriangle> dropped_;
+};
+
+}  // namespace plumbline::bintree
