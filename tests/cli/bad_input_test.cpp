@@ -21,7 +21,6 @@ namespace plumbline::testing_cli {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 /// A refusal needs no work; the rest is room for a slow, sanitized build on a busy machine.

@@ -18,7 +18,6 @@ namespace plumbline::testing_cli {
 namespace {
 
 using nlohmann::json;
-using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 

@@ -42,7 +42,7 @@ inline void write_file(const std::filesystem::path& path, const std::string& byt
 
 /// Each test gets an empty folder of its own, gone afterwards.
 class ProgramTest : public ::testing::Test {
- protected:
+ public:
   ProgramTest() {
     std::string name = (std::filesystem::temp_directory_path() / "plumbline-cli-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
@@ -53,6 +53,7 @@ class ProgramTest : public ::testing::Test {
     std::filesystem::remove_all(folder_, ignored);
   }
 
+ protected:
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
   /// A file of that name and text in the test's folder.
