@@ -28,4 +28,21 @@ class ProgressLine {
   Clock::time_point start_, last_;
 };
 
+/// The same for work without a known end: the latest line of news.
+class ProgressTicker {
+ public:
+  ProgressTicker(std::string what, bool quiet);
+  ~ProgressTicker();
+  void say(const std::string& news);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::mutex mutex_;
+  std::string what_;
+  bool quiet_;
+  bool terminal_;
+  bool shown_ = false;
+  Clock::time_point last_;
+};
+
 }  // namespace plumbline::cli
