@@ -191,6 +191,25 @@ TEST_F(Run, DumpsAMeshForEveryFrame) {
   EXPECT_EQ(meshes, 2U);
 }
 
+// Ctrl-C: what was finished is kept, whole.
+TEST_F(Run, InterruptedKeepsWhatWasFinished) {
+  SuiteText suite;
+  suite.trajectory = "id = \"long\"\nkind = \"orbit\"\nframes = 10000\n";
+  put("suite.toml", suite.text());
+  bool sent = false;
+  const Outcome outcome = run({"run", "suite.toml", "--out", "out", "--jobs", "2"}, 120, [&](pid_t program) {
+    // The folder exists once the flight begins, well after the handler was installed.
+    if (sent || !std::filesystem::exists(folder() / "out")) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    kill(program, SIGINT);
+    sent = true;
+  });
+  ASSERT_TRUE(sent);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  const json results = json::parse(read_file(folder() / "out/results.json"));
+  EXPECT_EQ(results.at("schema"), "plumbline.results/1");
+}
+
 // The report is a function of the suite: not of the threads, the instruction set, the folder, or an earlier
 // run.
 TEST_F(Run, SameSuiteSameBytes) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -63,7 +64,9 @@ class ProgramTest : public ::testing::Test {
   }
 
   /// Runs `plumbline arguments…` with the test's folder as working directory; killed after `limit_s`.
-  Outcome run(const std::vector<std::string>& arguments, double limit_s = 60) {
+  /// `meanwhile` is called again and again with the process's id.
+  Outcome run(const std::vector<std::string>& arguments, double limit_s = 60,
+              const std::function<void(pid_t)>& meanwhile = {}) {
     const std::filesystem::path io = folder_ / ".io";
     std::filesystem::create_directory(io);
     std::vector<std::string> words{PLUMBLINE_PROGRAM};
@@ -93,6 +96,8 @@ class ProgramTest : public ::testing::Test {
       if (elapsed_s() > limit_s && !outcome.timed_out) {
         outcome.timed_out = true;
         kill(child, SIGKILL);
+      } else if (meanwhile) {
+        meanwhile(child);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
