@@ -49,8 +49,8 @@ LINE_RULES = [
     LineRule(
         r"std::chrono|#include <(chrono|ctime)>",
         r"^(scenarios|algorithms|oracle|reports|properties)/.*\.(cpp|h)$",
-        r"^properties/(harness|laws)/",
-        "clocks are read in properties/harness (timing.json), never where a figure is made",
+        r"^properties/(harness|fuzz)/",
+        "clocks are read in properties/harness (timing.json) and properties/fuzz (--seconds), never where a figure is made",
     ),
     LineRule(r"std::unordered_(map|set|multi)", r"^(properties/verdict|reports)/.*\.(cpp|h)$", r"", "std::map or a sorted vector: what is written must have one order"),
     LineRule(r"\bDISABLED_|GTEST_FLAG_SET\(filter", r"^tests/.*\.cpp$", r"", "a test runs or is gone"),
