@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Speed against accuracy, and triangles against error: a curve per method over its thresholds.
+import { axis, base, chart, css, look, tooltip } from './chart';
+import type { Option } from './chart';
+import { controls, orAll, section, select } from './controls';
+import { median, methods, results, terrains, timingOf, trajectories, worst } from './data';
+import type { Figure, Run } from './data';
+import { el, short, tick } from './text';
+
+interface Point {
+  method: string;
+  threshold: number;
+  runs: number;
+  update: Figure;     // ms a frame, median over all frames
+  triangles: Figure;  // mean
+  p99: Figure;        // px, worst run
+  max: Figure;        // px, worst run
+  findings: number;
+}
+
+function points(runs: Run[]): Point[] {
+  const groups = new Map<string, Run[]>();
+  for (const run of runs) {
+    const key = JSON.stringify([run.method, run.threshold_px]);
+    groups.set(key, [...(groups.get(key) ?? []), run]);
+  }
+  return [...groups.values()].map((group) => {
+    const frames = group.reduce((sum, run) => sum + run.summary.frames, 0);
+    return {
+      method: group[0]!.method,
+      threshold: group[0]!.threshold_px,
+      runs: group.length,
+      update: median(group.flatMap((run) => timingOf.get(run.id)?.update_ms.frames ?? [])),
+      triangles: frames === 0 ? null
+        : group.reduce((sum, run) => sum + run.summary.triangles * run.summary.frames, 0) / frames,
+      p99: worst(group.map((run) => run.summary.displacement_px.p99)),
+      max: worst(group.map((run) => run.summary.displacement_px.max)),
+      findings: group.reduce((sum, run) =>
+        sum + Object.values(run.summary.conformity).reduce((all, count) => all + count, 0), 0),
+    };
+  }).sort((a, b) => a.threshold - b.threshold);
+}
+
+// A logarithmic axis has no zero. Its lowest decade stands for everything from there down to zero, and says so.
+const LEAST_FLOOR_PX = 1e-4;
+function floorOf(values: Figure[], least: number): number {
+  const shown = values.filter((value): value is number => value !== null && value > least);
+  if (shown.length === 0) return least;
+  return Math.max(least, 10 ** (Math.floor(Math.log10(Math.min(...shown))) - 1));
+}
+function ceilingOf(values: Figure[], floor: number): number {
+  const most = Math.max(floor * 10, ...values.filter((value): value is number => value !== null));
+  return 10 ** Math.ceil(Math.log10(most) - 1e-9);
+}
+
+function errorChart(runs: Run[], narrow: boolean, x: 'update' | 'triangles'): Option {
+  const all = points(runs).filter((point) => point[x] !== null && point.p99 !== null);
+  const floor = floorOf(all.map((point) => point.p99), LEAST_FLOOR_PX);
+  const pinned = all.some((point) => point.p99! < floor);
+  const xFloor = 10 ** Math.floor(Math.log10(Math.max(1e-5, Math.min(...all.map((point) => point[x]!)))) + 1e-9);
+  const shown = methods.filter((method) => all.some((point) => point.method === method));
+  return {
+    ...base(narrow, shown),
+    tooltip: {
+      ...(base(narrow, shown)['tooltip'] as object),
+      trigger: 'item',
+      formatter: ({ data }: { data: { point: Point } }) => {
+        const point = data.point;
+        return tooltip(`${point.method}, τ = ${short(point.threshold)} px`, [
+          ['update, median', `${short(point.update)} ms`],
+          ['triangles, mean', short(point.triangles)],
+          ['displacement, p99', `${short(point.p99)} px`],
+          ['displacement, max', `${short(point.max)} px`],
+          ['findings', short(point.findings)],
+          ['runs', short(point.runs)],
+        ]);
+      },
+    },
+    xAxis: axis(x === 'update' ? 'update time per frame, median (ms)' : 'triangles per frame, mean', 'x', 'log', {
+      min: xFloor, max: ceilingOf(all.map((point) => point[x]), xFloor),
+    }),
+    yAxis: axis('p99 displacement, worst run (px)', 'y', 'log', {
+      min: floor, max: ceilingOf(all.map((point) => point.p99), floor),
+      axisLabel: {
+        color: css('--muted'), fontSize: 12,
+        formatter: (value: number) => (pinned && value <= floor * 1.0001 ? `≤ ${tick(value)}` : tick(value)),
+      },
+    }),
+    series: shown.map((method) => {
+      const { colour, symbol, dash } = look(method);
+      return {
+        name: method, type: 'line', symbol, symbolSize: 11, clip: false,
+        lineStyle: { color: colour, width: 2, type: dash },
+        itemStyle: { color: colour },
+        emphasis: { scale: 1.4 },
+        label: {
+          show: !narrow, position: 'right', distance: 8, color: css('--muted'), fontSize: 11,
+          formatter: ({ data }: { data: { point: Point } }) =>
+            data.point.p99 === 0 ? 'zero error' : `τ ${short(data.point.threshold)}`,
+        },
+        labelLayout: { hideOverlap: true },
+        data: all.filter((point) => point.method === method).map((point) => ({
+          value: [Math.max(xFloor, point[x]!), Math.max(floor, point.p99!)],
+          point,
+          // Hollow: the 99th percentile is above the threshold that the method was given.
+          itemStyle: point.p99! > point.threshold
+            ? { color: css('--card'), borderColor: colour, borderWidth: 2.5 }
+            : { color: colour },
+        })),
+      };
+    }),
+  };
+}
+
+export function accuracySection(): HTMLElement {
+  const redraw = () => charts.forEach((one) => one.redraw());
+  const terrain = select('Terrain', orAll(terrains, 'all together'), terrains.length < 2 ? terrains[0] ?? '' : '', redraw);
+  const trajectory = select('Trajectory', orAll(trajectories, 'all together'),
+    trajectories.length < 2 ? trajectories[0] ?? '' : '', redraw);
+  const chosen = () => results.runs.filter((run) =>
+    (terrain.value() === '' || run.terrain === terrain.value()) &&
+    (trajectory.value() === '' || run.trajectory === trajectory.value()));
+  const speed = chart('Chart: update time against displacement, a curve per method',
+    (narrow) => errorChart(chosen(), narrow, 'update'));
+  const size = chart('Chart: triangles against displacement, a curve per method',
+    (narrow) => errorChart(chosen(), narrow, 'triangles'));
+  const charts = [speed, size];
+  return section('accuracy', 'Speed against accuracy',
+    el('p', { class: 'lead' }, 'Down and to the left is better. A curve joins one method’s thresholds τ; a hollow marker ' +
+      'means that the 99th percentile of the displacement lies above τ. Zero error stands on the axis’ floor.'),
+    controls(terrain, trajectory),
+    el('div', { class: 'pair' },
+      el('figure', {}, el('figcaption', {}, 'Update time against error'), speed.element),
+      el('figure', {}, el('figcaption', {}, 'Triangles against error'), size.element)));
+}

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The shapes of results.json ("plumbline.results/1"), timing.json ("plumbline.timing/1") and of what the page alone
+// needs. A figure that nothing was judged for is null.
+
+export type Figure = number | null;
+
+export const FINDINGS = [
+  'crack', 't_junction', 'fold_over', 'degenerate', 'hole', 'overlap', 'outline', 'non_manifold', 'duplicate',
+  'non_finite', 'bad_index', 'unused_vertex',
+] as const;
+export type FindingName = (typeof FINDINGS)[number];
+
+export interface Figures {
+  triangles: number;
+  vertices: number;
+  conformity: Record<FindingName, number>;
+  visible_cracks: number;
+  largest_gap_m: Figure;
+  largest_gap_px: Figure;
+  vertical_m: { max: Figure; certain_max: Figure; rms: Figure; mean: Figure };
+  displacement_px: {
+    max: Figure; p999: Figure; p99: Figure; rms: Figure; mean: Figure; over_threshold: Figure; uncovered_px: number;
+  };
+  depth_rel: { max: Figure; p99: Figure };
+  silhouette_px: { pixels: number; max: Figure };
+  pop_px: { max: Figure; p99: Figure };
+  shape: { slivers: number; min_quality: Figure };
+}
+
+export interface Finding {
+  code: number;
+  name: string;
+  kind: string;
+  severity: 'hazard' | 'fault';
+  at: [Figure, Figure, Figure];
+  visibility: 'unknown' | 'outside' | 'occluded' | 'visible';
+  gap_m?: Figure;
+  gap_px?: Figure;
+  area_m2?: Figure;
+  distance_m?: Figure;
+}
+
+export interface Frame extends Figures {
+  index: number;
+  findings: Finding[];
+}
+
+export interface Run {
+  id: string;
+  terrain: string;
+  trajectory: string;
+  method: string;
+  threshold_px: number;
+  frames: Frame[];
+  summary: Figures & { frames: number; worst_frame: number };
+}
+
+export interface Gate { name: string; run: string; limit: string; value: Figure; pass: boolean }
+
+export interface Terrain {
+  id: string; columns: number; rows: number; spacing_m: number; lowest_m: Figure; highest_m: Figure;
+  diagonal_ambiguity_m: Figure;
+}
+
+export interface Results {
+  suite: string;
+  pass: boolean;
+  interrupted: boolean;
+  viewport: [number, number];
+  fov_y_deg: number;
+  terrains: Terrain[];
+  runs: Run[];
+  gates: Gate[];
+  vacuous: string[];
+}
+
+export interface RunTiming {
+  run: string; prepare_s: number; oracle_s: number;
+  update_ms: { median: number; p95: number; frames: number[] };
+}
+export interface Timing {
+  plumbline: string; machine: string; compiler: string; build_type: string; jobs: number; total_s: number;
+  runs: RunTiming[];
+}
+
+export interface Picture {
+  run: string; frame: number; threshold_px: number; mesh: string; error: string; reference: string;
+}
+export interface Facts {
+  plumbline: string;
+  command: string;
+  headline: string;
+  sentences: string[];
+  catalogue: { code: number; name: string; definition: string }[];
+  pictures: Picture[];
+}
+
+function embedded<T>(id: string): T {
+  const holder = document.getElementById(id);
+  if (!holder?.textContent) throw new Error(`the page lacks its ${id}`);
+  return JSON.parse(holder.textContent) as T;
+}
+
+export const facts = embedded<Facts>('facts');
+export const results = embedded<Results>('results');
+export const timing = embedded<Timing>('timing');
+
+export const timingOf = new Map(timing.runs.map((run) => [run.run, run]));
+
+export function distinct<T>(values: Iterable<T>): T[] {
+  return [...new Set(values)];
+}
+export const terrains = distinct(results.runs.map((run) => run.terrain));
+export const trajectories = distinct(results.runs.map((run) => run.trajectory));
+export const methods = distinct(results.runs.map((run) => run.method));
+export const thresholds = distinct(results.runs.map((run) => run.threshold_px)).sort((a, b) => a - b);
+
+export function median(values: number[]): number | null {
+  if (values.length === 0) return null;
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.ceil(sorted.length / 2) - 1] ?? null;  // nearest rank, as in timing.json
+}
+
+/** The largest of the figures that exist. */
+export function worst(values: Figure[]): Figure {
+  return values.reduce<Figure>((most, value) => (value !== null && (most === null || value > most) ? value : most), null);
+}

@@ -1,3 +1,0 @@
-// SPDX-FileCopyrightText: The plumbline authors
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "properties/verdict/verdict.h"

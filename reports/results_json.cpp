@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+#include "reports/json_text.h"
+#include "reports/report.h"
+
+namespace plumbline::reports {
+namespace {
+
+using verdict::FrameVerdict;
+using verdict::RunSummary;
+
+/// A finding's witnesses are listed up to here; their number is always given in full.
+constexpr std::size_t kWitnessesListed = 16;
+
+Json xy(Vec2 p) { return Json::array({p.x, p.y}); }
+Json xyz(Vec3 p) { return Json::array({p.x, p.y, p.z}); }
+
+/// A figure that nothing was judged for is null, which no reader can take for a perfect score.
+Json judged(bool any, double value) { return any ? Json(value) : Json(nullptr); }
+
+Json camera_json(const Camera& camera) {
+  return {{"position", xyz(camera.position)},
+          {"forward", xyz(camera.forward)},
+          {"up", xyz(camera.up)},
+          {"fov_y_deg", camera.fov_y_deg},
+          {"viewport", Json::array({camera.width_px, camera.height_px})}};
+}
+
+Json conformity_json(const oracle::ConformityCounts& counts) {
+  return {{"crack", counts.crack},         {"t_junction", counts.t_junction},
+          {"fold_over", counts.fold_over}, {"degenerate", counts.degenerate},
+          {"hole", counts.hole},           {"overlap", counts.overlap},
+          {"outline", counts.outline},     {"non_manifold", counts.non_manifold},
+          {"duplicate", counts.duplicate}, {"non_finite", counts.non_finite},
+          {"bad_index", counts.bad_index}, {"unused_vertex", counts.unused_vertex}};
+}
+
+Json vertical_json(const oracle::VerticalError& error) {
+  const bool any = error.area_m2 > 0;
+  return {{"max", judged(any, error.max)},
+          {"certain_max", judged(any, error.certain_max)},
+          {"rms", judged(any, error.rms)},
+          {"mean", judged(any, error.mean)},
+          {"at", any ? xy(error.at) : Json(nullptr)},
+          {"certain_at", any ? xy(error.certain_at) : Json(nullptr)},
+          {"area_m2", error.area_m2}};
+}
+
+/// What a frame and a trajectory have in common, in CONTRACT's order.
+template <class Judged>
+void add_figures(Json& out, const Judged& frame) {
+  const oracle::PixelFigure& displacement = frame.image.displacement_px;
+  const oracle::PixelFigure& depth = frame.image.depth_rel;
+  const bool seen = displacement.count > 0;
+  out["conformity"] = conformity_json(frame.conformity);
+  out["visible_cracks"] = frame.visible_cracks;
+  out["largest_gap_m"] = frame.largest_gap_m;
+  out["largest_gap_px"] = frame.largest_gap_px;
+  out["vertical_m"] = vertical_json(frame.vertical_m);
+  out["displacement_px"] = {{"max", judged(seen, displacement.max)},
+                            {"p999", judged(seen, displacement.p999)},
+                            {"p99", judged(seen, displacement.p99)},
+                            {"rms", judged(seen, displacement.rms)},
+                            {"mean", judged(seen, displacement.mean)},
+                            {"over_threshold", judged(seen, frame.image.over_threshold)},
+                            {"uncovered_px", frame.image.uncovered_px},
+                            {"judged_px", displacement.count}};
+  out["depth_rel"] = {{"max", judged(depth.count > 0, depth.max)},
+                      {"p99", judged(depth.count > 0, depth.p99)},
+                      {"judged_px", depth.count}};
+  out["silhouette_px"] = {{"pixels", frame.image.silhouette_pixels}, {"max", frame.image.silhouette_max_px}};
+  out["pop_px"] = {{"max", judged(frame.pop_px.count > 0, frame.pop_px.max)},
+                   {"p99", judged(frame.pop_px.count > 0, frame.pop_px.p99)},
+                   {"judged_px", frame.pop_px.count}};
+  out["shape"] = {{"slivers", frame.shape.slivers},
+                  {"min_quality", frame.shape.min_quality},
+                  {"mean_quality", frame.shape.mean_quality},
+                  {"least_angle_deg", frame.shape.least_angle_deg},
+                  {"max_valence", frame.shape.max_valence},
+                  {"mean_valence", frame.shape.mean_valence},
+                  {"mean_fan_length", frame.shape.mean_fan_length}};
+  const verdict::CounterFigures& counters = frame.counters;
+  out["counters"] = {{"visited", counters.visited}, {"evaluated", counters.evaluated},
+                     {"split", counters.split},     {"merged", counters.merged},
+                     {"entered", counters.entered}, {"left", counters.left}};
+}
+
+std::string_view severity_name(oracle::Severity severity) {
+  return severity == oracle::Severity::hazard ? "hazard" : "fault";
+}
+
+std::string_view visibility_name(oracle::Visibility visibility) {
+  switch (visibility) {
+    case oracle::Visibility::unknown:
+      return "unknown";
+    case oracle::Visibility::outside:
+      return "outside";
+    case oracle::Visibility::occluded:
+      return "occluded";
+    case oracle::Visibility::visible:
+      return "visible";
+  }
+  return "unknown";
+}
+
+template <class Item, class Show>
+void add_witnesses(Json& out, const char* name, const std::vector<Item>& items, Show show) {
+  if (items.empty()) return;
+  Json listed = Json::array();
+  for (const Item& item : std::span(items).first(std::min(items.size(), kWitnessesListed)))
+    listed.push_back(show(item));
+  out[name] = std::move(listed);
+  if (items.size() > kWitnessesListed) out[std::string(name) + "_count"] = items.size();
+}
+
+Json finding_json(const oracle::Finding& finding) {
+  using oracle::FindingCode;
+  Json out = {{"code", static_cast<int>(finding.code)},
+              {"name", oracle::finding_name(finding.code)},
+              {"kind", finding.kind},
+              {"severity", severity_name(finding.severity)},
+              {"at", xyz(finding.at)},
+              {"visibility", visibility_name(finding.visibility)}};
+  if (finding.code == FindingCode::crack || finding.code == FindingCode::t_junction) {
+    out["gap_m"] = finding.gap_m;
+    out["gap_px"] = finding.gap_px;
+  }
+  if (finding.area_m2 != 0) out["area_m2"] = finding.area_m2;
+  if (finding.distance_m != 0) out["distance_m"] = finding.distance_m;
+  const auto as_is = [](std::uint32_t index) { return Json(index); };
+  add_witnesses(out, "vertices", finding.vertices, as_is);
+  add_witnesses(out, "triangles", finding.triangles, as_is);
+  add_witnesses(out, "loop", finding.loop, xy);
+  return out;
+}
+
+Json frame_json(const FrameVerdict& frame) {
+  Json out = {{"index", frame.index},
+              {"camera", camera_json(frame.camera)},
+              {"triangles", frame.triangles},
+              {"vertices", frame.vertices}};
+  add_figures(out, frame);
+  out["findings"] = Json::array();
+  for (const oracle::Finding& finding : frame.findings) out["findings"].push_back(finding_json(finding));
+  return out;
+}
+
+Json summary_json(const RunSummary& summary) {
+  Json out = {{"frames", summary.frames},
+              {"triangles", summary.triangles},
+              {"triangles_min", summary.triangles_min},
+              {"triangles_max", summary.triangles_max},
+              {"vertices", summary.vertices}};
+  add_figures(out, summary);
+  out["worst_frame"] = summary.worst_frame;
+  return out;
+}
+
+Json run_json(const verdict::RunVerdict& run) {
+  Json out = {{"id", run.id},         {"terrain", run.terrain},           {"trajectory", run.trajectory},
+              {"method", run.method}, {"threshold_px", run.threshold_px}, {"frames", Json::array()}};
+  for (const FrameVerdict& frame : run.frames) out["frames"].push_back(frame_json(frame));
+  out["summary"] = summary_json(run.summary);
+  return out;
+}
+
+}  // namespace
+
+std::string results_json(const verdict::SuiteVerdict& verdict) {
+  Json out = {{"schema", "plumbline.results/1"},
+              {"suite", verdict.suite},
+              {"pass", verdict.pass()},
+              {"interrupted", verdict.interrupted},
+              {"viewport", Json::array({verdict.width_px, verdict.height_px})},
+              {"fov_y_deg", verdict.fov_y_deg},
+              {"terrains", Json::array()},
+              {"runs", Json::array()},
+              {"gates", Json::array()},
+              {"vacuous", verdict.vacuous}};
+  for (const verdict::TerrainFacts& terrain : verdict.terrains)
+    out["terrains"].push_back({{"id", terrain.id},
+                               {"columns", terrain.columns},
+                               {"rows", terrain.rows},
+                               {"spacing_m", terrain.spacing_m},
+                               {"lowest_m", terrain.lowest_m},
+                               {"highest_m", terrain.highest_m},
+                               {"diagonal_ambiguity_m", terrain.diagonal_ambiguity_m}});
+  for (const verdict::RunVerdict& run : verdict.runs) out["runs"].push_back(run_json(run));
+  for (const verdict::GateVerdict& gate : verdict.gates)
+    out["gates"].push_back({{"name", gate.name},
+                            {"run", gate.run},
+                            {"limit", gate.limit},
+                            {"value", gate.value},
+                            {"pass", gate.pass}});
+  return json_text(out, 3);
+}
+
+}  // namespace plumbline::reports

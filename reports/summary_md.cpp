@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/digest.h"
+#include "reports/escape.h"
+#include "reports/quantile.h"
+#include "reports/report.h"
+
+namespace plumbline::reports {
+namespace {
+
+constexpr std::size_t kFailedGatesShown = 10;
+constexpr std::size_t kOffendersShown = 8;
+
+/// A Markdown table whose columns also line up on a terminal. Numbers stand to the right, the first
+/// `text_columns` left.
+class Table {
+ public:
+  Table(std::vector<std::string> head, std::size_t text_columns) : text_columns_(text_columns) {
+    row(std::move(head));
+  }
+  void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  [[nodiscard]] bool empty() const { return rows_.size() < 2; }
+
+  [[nodiscard]] std::string text() const {
+    std::vector<std::size_t> widths(rows_.front().size(), 3);
+    for (const auto& cells : rows_)
+      for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], columns_of(cells[c]));
+    std::string out = line(rows_.front(), widths) + rule(widths);
+    for (std::size_t r = 1; r < rows_.size(); ++r) out += line(rows_[r], widths);
+    return out;
+  }
+
+ private:
+  /// Characters, not bytes: every byte of UTF-8 but the continuing ones begins one.
+  static std::size_t columns_of(const std::string& cell) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(cell, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  }
+  [[nodiscard]] std::string line(const std::vector<std::string>& cells,
+                                 const std::vector<std::size_t>& widths) const {
+    std::string out = "|";
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const std::string pad(widths[c] - columns_of(cells[c]), ' ');
+      out += c < text_columns_ ? " " + cells[c] + pad + " |" : " " + pad + cells[c] + " |";
+    }
+    return out + "\n";
+  }
+  [[nodiscard]] std::string rule(const std::vector<std::size_t>& widths) const {
+    std::string out = "|";
+    for (std::size_t c = 0; c < widths.size(); ++c)
+      out += c < text_columns_ ? ":" + std::string(widths[c] + 1, '-') + "|"
+                               : std::string(widths[c] + 1, '-') + ":|";
+    return out + "\n";
+  }
+
+  std::size_t text_columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string place(Vec3 at) { return fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x, at.y, at.z); }
+
+/// Method × finding; findings that occur nowhere are named below instead of filling columns of zeros.
+std::string matrix(const verdict::SuiteVerdict& verdict) {
+  const std::vector<MethodDigest> methods = digest_methods(verdict);
+  std::vector<FindingColumn> shown;
+  std::vector<std::string> absent;
+  for (const FindingColumn& column : finding_columns()) {
+    const bool occurs =
+        std::ranges::any_of(methods, [&](const MethodDigest& m) { return m.conformity.*column.count > 0; });
+    if (occurs) {
+      shown.push_back(column);
+    } else {
+      absent.emplace_back(column.name);
+    }
+  }
+  std::vector<std::string> head{"method", "verdict", "frames"};
+  for (const FindingColumn& column : shown) head.emplace_back(column.name);
+  head.insert(head.end(), {"visible cracks", "gates failed"});
+  Table table(std::move(head), 2);
+  for (const MethodDigest& method : methods) {
+    std::vector<std::string> cells{markdown_cell(method.method), method.sound() ? "sound" : "not sound",
+                                   std::to_string(method.frames)};
+    for (const FindingColumn& column : shown)
+      cells.push_back(std::to_string(method.conformity.*column.count));
+    cells.push_back(std::to_string(method.visible_cracks));
+    cells.push_back(fmt::format("{} of {}", method.failed_gates, method.gates));
+    table.row(std::move(cells));
+  }
+  std::string out = table.text();
+  if (!absent.empty()) out += fmt::format("\nNowhere: {}.\n", fmt::join(absent, ", "));
+  return out;
+}
+
+std::string failed_gates(const verdict::SuiteVerdict& verdict) {
+  Table table({"failed gate", "run", "limit", "value"}, 3);
+  std::size_t failed = 0;
+  for (const verdict::GateVerdict& gate : verdict.gates) {
+    if (gate.pass || ++failed > kFailedGatesShown) continue;
+    table.row({markdown_cell(gate.name), markdown_cell(gate.run), markdown_cell(gate.limit),
+               short_number(gate.value)});
+  }
+  if (failed == 0) return {};
+  std::string out = "\n## Failed gates\n\n" + table.text();
+  if (failed > kFailedGatesShown)
+    out += fmt::format("\n… and {} more, in junit.xml.\n", failed - kFailedGatesShown);
+  return out;
+}
+
+std::string offenders(const verdict::SuiteVerdict& verdict) {
+  Table table({"finding", "run", "frame", "at x, y, z (m)", "gap (m)", "gap (px)", "area (m²)"}, 2);
+  const std::vector<LocatedFinding> worst = worst_findings(verdict);
+  for (const LocatedFinding& found : std::span(worst).first(std::min(worst.size(), kOffendersShown))) {
+    const oracle::Finding& finding = *found.finding;
+    const bool visible = finding.visibility == oracle::Visibility::visible;
+    table.row({fmt::format("{} {}{}", static_cast<int>(finding.code), oracle::finding_name(finding.code),
+                           visible ? ", visible" : ""),
+               markdown_cell(found.run->id), std::to_string(found.frame->index), place(finding.at),
+               short_number(std::fabs(finding.gap_m)), short_number(std::fabs(finding.gap_px)),
+               short_number(finding.area_m2)});
+  }
+  return table.empty() ? std::string() : "\n## Worst offenders\n\n" + table.text();
+}
+
+/// Method × threshold over all terrains and trajectories.
+std::string economy(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing) {
+  struct Row {
+    std::string method;
+    double threshold_px = 0, triangles = 0, p99_px = 0, max_px = 0;
+    std::size_t frames = 0, judged_px = 0;
+    std::vector<double> update_ms;
+  };
+  std::map<std::string_view, const verdict::RunTiming*> clocks;
+  for (const verdict::RunTiming& run : timing.runs) clocks[run.run] = &run;
+  std::vector<Row> rows;
+  for (const verdict::RunVerdict& run : verdict.runs) {
+    auto row = std::ranges::find_if(rows, [&](const Row& known) {
+      return known.method == run.method && known.threshold_px == run.threshold_px;
+    });
+    if (row == rows.end()) {
+      Row fresh;
+      fresh.method = run.method;
+      fresh.threshold_px = run.threshold_px;
+      row = rows.insert(rows.end(), std::move(fresh));
+    }
+    const verdict::RunSummary& summary = run.summary;
+    row->triangles += summary.triangles * static_cast<double>(summary.frames);
+    row->frames += summary.frames;
+    row->judged_px += summary.image.displacement_px.count;
+    row->p99_px = std::max(row->p99_px, summary.image.displacement_px.p99);
+    row->max_px = std::max(row->max_px, summary.image.displacement_px.max);
+    if (const auto clock = clocks.find(run.id); clock != clocks.end())
+      row->update_ms.insert(row->update_ms.end(), clock->second->update_ms.begin(),
+                            clock->second->update_ms.end());
+  }
+  Table table({"method", "τ (px)", "triangles, mean", "p99 displacement, worst (px)", "max (px)",
+               "update, median (ms)", "p95 (ms)"},
+              1);
+  for (const Row& row : rows) {
+    const bool timed = !row.update_ms.empty();
+    table.row({markdown_cell(row.method), short_number(row.threshold_px),
+               row.frames == 0 ? "—" : fmt::format("{:.0f}", row.triangles / static_cast<double>(row.frames)),
+               row.judged_px == 0 ? "—" : short_number(row.p99_px),
+               row.judged_px == 0 ? "—" : short_number(row.max_px),
+               timed ? short_number(quantile(row.update_ms, 0.5)) : "—",
+               timed ? short_number(quantile(row.update_ms, 0.95)) : "—"});
+  }
+  return table.empty() ? std::string() : "\n## Speed and accuracy\n\n" + table.text();
+}
+
+}  // namespace
+
+std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing) {
+  const VerdictWords words = verdict_in_words(verdict);
+  std::string out = fmt::format("# {}: {}\n\n{}.\n", markdown_cell(verdict.suite),
+                                verdict.pass() ? "pass" : "FAIL", markdown_cell(words.headline));
+  if (!words.sentences.empty()) out += '\n';
+  for (const std::string& sentence : words.sentences) out += fmt::format("- {}\n", markdown_cell(sentence));
+  out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + offenders(verdict) +
+         economy(verdict, timing);
+  return out;
+}
+
+}  // namespace plumbline::reports
