@@ -52,4 +52,15 @@ double exact_pow(double base, double exponent) {
   });
 }
 
+double exact_atan2(double y, double x) {
+  return rounded([&](mpfr_ptr v) {
+    mpfr_t east;
+    mpfr_init2(east, 53);
+    mpfr_set_d(east, x, MPFR_RNDN);
+    mpfr_set_d(v, y, MPFR_RNDN);
+    mpfr_atan2(v, v, east, MPFR_RNDN);
+    mpfr_clear(east);
+  });
+}
+
 }  // namespace plumbline

@@ -39,10 +39,12 @@ class TomlBuilder {
       const std::string below = path.empty() ? name_of_key : path + "." + name_of_key;
       table.entries_.emplace_back(name_of_key, value(node, place, one_line(below, 120)));
       table.entries_.back().second.line_ = static_cast<int>(key.source().begin.line);
+      table.entries_.back().second.column_ = static_cast<int>(key.source().begin.column);
     }
     // toml++ sorts by key; a file's author thinks in the order written.
-    std::stable_sort(table.entries_.begin(), table.entries_.end(),
-                     [](const auto& a, const auto& b) { return a.second.line() < b.second.line(); });
+    std::stable_sort(table.entries_.begin(), table.entries_.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.second.line_, a.second.column_) < std::pair(b.second.line_, b.second.column_);
+    });
     return table;
   }
 

@@ -62,6 +62,7 @@ class TomlValue {
   std::variant<bool, std::int64_t, double, std::string, Array, std::shared_ptr<const TomlTable>> value_;
   std::shared_ptr<const Place> place_;
   int line_ = 0;
+  int column_ = 0;  // of a key
 };
 
 /// A table: `[x]`, one of `[[x]]`, an inline one, or the whole file. Entries keep the file's order.

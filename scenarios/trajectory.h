@@ -15,27 +15,35 @@ struct CameraPose {
   Vec3 look_at;
 };
 
-/// A scripted flight. Lengths left at 0 take a default from the terrain's extent, so that one script suits every
-/// terrain; positions are given as fractions of the extent where the kind says so.
+inline constexpr int kMostFrames = 100'000;
+
+/// A scripted flight. Lengths left at 0 take a default from L, the lesser side of the terrain's extent, so
+/// that one script suits every terrain. Below, the ground is the reference surface; each kind is told in
+/// trajectory_kinds().
 struct TrajectorySpec {
   std::string id;
-  std::string kind;   ///< approach, retreat, orbit, skim, spin, nadir, teleport, hover, poses
-  int frames = 0;     ///< absent for `poses`: one frame a pose
-  double height_m = 0;      ///< above the ground below the camera
-  double distance_m = 0;    ///< approach, retreat: length of the way; orbit: radius
-  double jitter_px = 0;     ///< hover: amplitude of the motion, as it shows in the picture's middle
-  std::uint64_t seed = 1;   ///< teleport, hover
+  std::string kind;  ///< approach, retreat, orbit, skim, spin, nadir, teleport, hover, poses
+  int frames = 0;    ///< absent for `poses`: one frame a pose
+  /// approach, retreat: above the ground at the near end (0.03 L); skim (0.015 L), spin (0.06 L), hover (0.08
+  /// L): above the ground below; orbit: above the highest ground on the way (0.2 L); nadir: above the highest
+  /// sample (0.4 L).
+  double height_m = 0;
+  double distance_m = 0;   ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L)
+  double jitter_px = 0;    ///< hover: amplitude of the motion, as it shows in the picture's middle (0.5 px)
+  std::uint64_t seed = 1;  ///< teleport, hover
   std::vector<CameraPose> poses;
 };
 
-/// The cameras of a flight over a terrain, one a frame. Throws InputError for an unknown kind, no frames, or a pose
-/// below the reference surface (a camera inside the ground sees nothing that could be judged).
+/// The cameras of a flight over a terrain, one a frame; the same bits on every machine. Throws InputError for
+/// an unknown kind, frames outside [1, kMostFrames], a length that is negative or not finite, or a given pose
+/// that is not above the reference surface (a camera inside the ground sees nothing that could be judged).
 std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const Terrain& terrain, double fov_y_deg,
                                     int width_px, int height_px);
 
 struct TrajectoryKind {
   std::string name;
   std::string summary;
+  std::vector<std::string> keys;  ///< of a suite file that apply to it, besides id and kind
 };
 const std::vector<TrajectoryKind>& trajectory_kinds();
 

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace plumbline {
+
+/// The figures of a run's summary that a gate may limit, by their path in results.json (conformity's counts
+/// stand alone), in its order. Kept here as names only, so that a suite can be checked before anything is
+/// run; a test in tests/properties holds the list against the verdict's own.
+inline constexpr std::array kGateFigures{
+    std::string_view{"triangles"},
+    std::string_view{"triangles_max"},
+    std::string_view{"crack"},
+    std::string_view{"t_junction"},
+    std::string_view{"fold_over"},
+    std::string_view{"degenerate"},
+    std::string_view{"hole"},
+    std::string_view{"overlap"},
+    std::string_view{"outline"},
+    std::string_view{"non_manifold"},
+    std::string_view{"duplicate"},
+    std::string_view{"non_finite"},
+    std::string_view{"bad_index"},
+    std::string_view{"unused_vertex"},
+    std::string_view{"visible_cracks"},
+    std::string_view{"largest_gap_m"},
+    std::string_view{"largest_gap_px"},
+    std::string_view{"vertical_m.max"},
+    std::string_view{"vertical_m.certain_max"},
+    std::string_view{"vertical_m.rms"},
+    std::string_view{"vertical_m.mean"},
+    std::string_view{"displacement_px.max"},
+    std::string_view{"displacement_px.p999"},
+    std::string_view{"displacement_px.p99"},
+    std::string_view{"displacement_px.rms"},
+    std::string_view{"displacement_px.mean"},
+    std::string_view{"displacement_px.over_threshold"},
+    std::string_view{"displacement_px.uncovered_px"},
+    std::string_view{"depth_rel.max"},
+    std::string_view{"depth_rel.p99"},
+    std::string_view{"silhouette_px.pixels"},
+    std::string_view{"silhouette_px.max"},
+    std::string_view{"pop_px.max"},
+    std::string_view{"pop_px.p99"},
+    std::string_view{"shape.slivers"},
+    std::string_view{"shape.min_quality"},
+};
+
+}  // namespace plumbline

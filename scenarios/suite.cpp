@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "scenarios/suite.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "scenarios/error.h"
+#include "scenarios/gate_reader.h"
+#include "scenarios/nearest.h"
+#include "scenarios/source_reader.h"
+#include "scenarios/toml_reader.h"
+
+namespace plumbline {
+namespace {
+
+constexpr std::size_t kLongestId = 64;  // four of them and a folder must fit a file name
+constexpr std::size_t kMostRuns = 100'000;
+constexpr double kLargestThresholdPx = 1e6;
+
+std::string read_id(const TomlTable& table, bool with_variant) {
+  const TomlValue& value = table.at("id");
+  const std::string& id = value.text();
+  const auto allowed = [&](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.' || c == '-' || (with_variant && c == ':');
+  };
+  if (id.empty() || id.size() > kLongestId || !std::all_of(id.begin(), id.end(), allowed)) {
+    value.fail(fmt::format("is \"{}\"; use 1 to {} of the characters A-Z a-z 0-9 _ . -{}", one_line(id, 80),
+                           kLongestId, with_variant ? " :" : ""));
+  }
+  return id;
+}
+
+template <class Item>
+void refuse_second(const TomlTable& table, const std::vector<Item>& earlier, const std::string& id) {
+  for (const Item& item : earlier) {
+    if (item.id == id) table.at("id").fail(fmt::format("repeats \"{}\"; give each its own id", id));
+  }
+}
+
+MethodSpec read_method(const TomlTable& table) {
+  table.allow_only({"id", "thresholds_px", "options"});
+  MethodSpec method;
+  method.id = read_id(table, true);
+  const TomlValue& thresholds = table.at("thresholds_px");
+  for (const TomlValue& element : thresholds.array()) {
+    const double threshold_px = element.positive();
+    if (threshold_px > kLargestThresholdPx)
+      element.fail(fmt::format("is {}; give at most 1e6 pixels", threshold_px));
+    const auto& earlier = method.thresholds_px;
+    if (std::find(earlier.begin(), earlier.end(), threshold_px) != earlier.end()) {
+      element.fail(fmt::format("repeats {}; name each threshold once", threshold_px));
+    }
+    method.thresholds_px.push_back(threshold_px);
+  }
+  if (method.thresholds_px.empty()) thresholds.fail("is empty; give at least one number above 0");
+  if (const TomlValue* options = table.find("options")) {
+    for (const auto& [key, value] : options->table().entries()) {
+      if (value.is_boolean()) {
+        method.options[key] = value.boolean();
+      } else if (value.is_number()) {
+        method.options[key] = value.number();
+      } else {
+        method.options[key] = value.text();
+      }
+    }
+  }
+  return method;
+}
+
+// Ids may hold dots, and a run's id joins four of them with dots: two runs must not come to share one.
+void refuse_equal_run_ids(const Suite& suite, const TomlTable& file) {
+  std::size_t thresholds = 0;
+  for (const MethodSpec& method : suite.methods) thresholds += method.thresholds_px.size();
+  const std::size_t runs = suite.terrains.size() * suite.trajectories.size() * thresholds;
+  if (runs > kMostRuns) file.fail(fmt::format("the suite asks for {} runs; keep to {}", runs, kMostRuns));
+  std::set<std::string> ids;
+  for (const TerrainSource& terrain : suite.terrains) {
+    for (const TrajectorySpec& trajectory : suite.trajectories) {
+      for (const MethodSpec& method : suite.methods) {
+        for (const double threshold_px : method.thresholds_px) {
+          const std::string id =
+              fmt::format("{}.{}.{}.{}", terrain.id, trajectory.id, method.id, threshold_px);
+          if (!ids.insert(id).second) {
+            file.fail(fmt::format("two runs would be called \"{}\"; leave dots out of the ids", id));
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Suite load_suite(const std::filesystem::path& path) {
+  const TomlTable file = read_toml(path);
+  file.allow_only({"suite", "terrain", "trajectory", "method", "gate"});
+  Suite suite;
+  suite.path = path;
+
+  const TomlTable& head = file.at("suite").table();
+  head.allow_only({"name", "viewport", "fov_y_deg"});
+  suite.name = head.at("name").text();
+  if (suite.name.empty() || suite.name.size() > 200 || one_line(suite.name) != suite.name) {
+    head.at("name").fail("must be 1 to 200 bytes on one line; shorten it");
+  }
+  if (const TomlValue* viewport = head.find("viewport")) {
+    const auto& sides = viewport->array();
+    if (sides.size() != 2)
+      viewport->fail(fmt::format("has {} elements; give [width, height] in pixels", sides.size()));
+    suite.width_px = static_cast<int>(sides[0].integer_in(1, 16384));
+    suite.height_px = static_cast<int>(sides[1].integer_in(1, 16384));
+  }
+  if (const TomlValue* fov = head.find("fov_y_deg")) {
+    suite.fov_y_deg = fov->positive();
+    if (!(suite.fov_y_deg < 180)) fov->fail(fmt::format("is {}; give degrees below 180", suite.fov_y_deg));
+  }
+
+  for (const TomlTable* table : file.tables("terrain")) {
+    const std::string id = read_id(*table, false);
+    refuse_second(*table, suite.terrains, id);
+    suite.terrains.push_back(read_terrain_source(*table, path.parent_path()));
+  }
+  for (const TomlTable* table : file.tables("trajectory")) {
+    const std::string id = read_id(*table, false);
+    refuse_second(*table, suite.trajectories, id);
+    suite.trajectories.push_back(read_trajectory(*table));
+  }
+  for (const TomlTable* table : file.tables("method")) {
+    MethodSpec method = read_method(*table);
+    refuse_second(*table, suite.methods, method.id);
+    suite.methods.push_back(std::move(method));
+  }
+  if (suite.terrains.empty()) file.fail("the suite has no terrain; add a [[terrain]]");
+  if (suite.trajectories.empty()) file.fail("the suite has no trajectory; add a [[trajectory]]");
+  if (suite.methods.empty()) file.fail("the suite has no method; add a [[method]]");
+  refuse_equal_run_ids(suite, file);
+
+  if (const TomlValue* gate = file.find("gate")) {
+    std::vector<std::string> methods;
+    for (const MethodSpec& method : suite.methods) methods.push_back(method.id);
+    suite.gates = read_gates(gate->table(), methods);
+  }
+  return suite;
+}
+
+}  // namespace plumbline
