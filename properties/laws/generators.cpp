@@ -136,7 +136,7 @@ CameraPose draw_pose(Draw& draw, const std::string& kind, const Terrain& terrain
   const Vec3 target = ground_point();
   Vec3 position;
   if (kind == "nadir") {
-    position = {target.x, target.y, target.z + draw.whole(1, 30 * range)};
+    position = {target.x, target.y, target.z + std::floor(draw.whole(1, 80) * terrain.spacing_m)};
   } else if (kind == "above") {
     const Vec3 below = ground_point();
     position = {below.x + draw.whole(-range, range), below.y + draw.whole(-range, range),
@@ -185,7 +185,8 @@ std::optional<double> draw_decisive_threshold(Draw& draw, const LawInput& input)
     const double error_m = std::fabs(terrain.z(i, j) - (terrain.z(i - 1, j) + terrain.z(i + 1, j)) / 2);
     const double depth_m = camera.depth(terrain.point(i, j));
     if (error_m > 0 && depth_m > 0) {
-      const double factor = draw.one_of<double>({1, 1, 0.9375, 1.0625, 0.5, 2});
+      // A little below 1 the sample is worth a split by a margin of less than q − 1.
+      const double factor = draw.one_of<double>({1, 0.984375, 0.984375, 0.984375, 0.9375, 1.0625, 0.5, 2});
       return error_m * camera.kappa_px / depth_m * factor;
     }
   }
@@ -222,14 +223,17 @@ DrawnCase draw_whole_case(const std::string& method_id, const rc::Random& random
   grid.terrain.spacing_m = draw.one_of<int>({1, 2, 10, 30});
   grid.terrain.heights_m.assign(
       static_cast<std::size_t>(extent.columns) * static_cast<std::size_t>(extent.rows), 0.0);
-  drawn.terrain_shape = draw.one_of(terrain_shapes());
+  // The shape that M4.S1 needs is drawn more often; so are the cameras that set neighbours' depths apart.
+  drawn.terrain_shape = draw.chance(25) ? "bump_on_ramp" : draw.one_of(terrain_shapes());
   draw_heights(draw, drawn.terrain_shape, grid);
   input.terrain = std::move(grid.terrain);
 
   draw_picture(draw, input);
   const int poses = draw.one_of<int>({1, 2, 2, 3, 4});
   for (int k = 0; k < poses; ++k) {
-    drawn.camera_class = draw.one_of(camera_classes());
+    drawn.camera_class = draw.chance(20)   ? "nadir"
+                         : draw.chance(25) ? "along_slope"
+                                           : draw.one_of(camera_classes());
     input.poses.push_back(draw_pose(draw, drawn.camera_class, input.terrain));
   }
 

@@ -52,6 +52,46 @@ void cut(LawInput& input, int i0, int j0, int columns, int rows, int step) {
   shift(input, {i0 * whole.spacing_m, j0 * whole.spacing_m, 0});
 }
 
+/// The largest second difference of a sample along x and y, metres: about the error it makes where it is left
+/// out.
+double second_difference_m(const Terrain& terrain, std::size_t k) {
+  const int i = static_cast<int>(k) % terrain.columns, j = static_cast<int>(k) / terrain.columns;
+  double result = 0;
+  if (i > 0 && i + 1 < terrain.columns) {
+    result = std::fabs(terrain.z(i, j) - (terrain.z(i - 1, j) + terrain.z(i + 1, j)) / 2);
+  }
+  if (j > 0 && j + 1 < terrain.rows) {
+    result = std::max(result, std::fabs(terrain.z(i, j) - (terrain.z(i, j - 1) + terrain.z(i, j + 1)) / 2));
+  }
+  return result;
+}
+
+/// Sets the threshold to what sample k is worth by a little more, in three digits. A simpler height or camera
+/// alone would often lose the counterexample, since what was decided by little is then decided by much.
+void retune(LawInput& input, std::size_t k) {
+  const CameraPose& pose = input.poses.back();
+  if (pose.position == pose.look_at) return;
+  const Camera camera =
+      make_camera(pose.position, pose.look_at, input.fov_y_deg, input.width_px, input.height_px);
+  const int i = static_cast<int>(k) % input.terrain.columns, j = static_cast<int>(k) / input.terrain.columns;
+  const double depth_m = camera.depth(input.terrain.point(i, j));
+  const double error_m = second_difference_m(input.terrain, k);
+  if (!(depth_m > 0 && error_m > 0)) return;
+  constexpr double kLittle = 0.984375;
+  double threshold_px = error_m * camera.kappa_px / depth_m * kLittle, unit = 1;
+  while (threshold_px * unit < 100 && unit < 1e12) unit *= 10;
+  threshold_px = std::round(threshold_px * unit) / unit;
+  if (threshold_px > 0) input.threshold_px = threshold_px;
+}
+
+std::size_t most_curved_sample(const Terrain& terrain) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < terrain.heights_m.size(); ++k) {
+    if (second_difference_m(terrain, k) > second_difference_m(terrain, best)) best = k;
+  }
+  return best;
+}
+
 void smaller_terrains(const LawInput& input, Candidates& candidates) {
   const int columns = input.terrain.columns, rows = input.terrain.rows;
   // Sides 2ᵃ·m + 1 with m = 1, 2, 3 cover squares and rows of clusters.
@@ -96,6 +136,21 @@ void simpler_heights(const LawInput& input, Candidates& candidates) {
     });
   };
   change_all([](int, int, double) { return 0.0; });
+  // A unit cell: the whole scene scaled, then its heights whole again.
+  for (const bool make_whole : {true, false}) {
+    candidates.try_change([&](LawInput& simpler) {
+      const double scale = 1 / simpler.terrain.spacing_m;
+      simpler.terrain.spacing_m = 1;
+      for (double& z : simpler.terrain.heights_m) z = make_whole ? std::round(z * scale) : z * scale;
+      for (CameraPose& pose : simpler.poses) {
+        pose = {pose.position * scale, pose.look_at * scale};
+        if (!make_whole) continue;
+        for (Vec3* p : {&pose.position, &pose.look_at})
+          *p = {std::round(p->x), std::round(p->y), std::round(p->z)};
+      }
+      if (make_whole) retune(simpler, most_curved_sample(simpler.terrain));
+    });
+  }
   // Down to the ground: heights and cameras sink together.
   for (const double level : {terrain.lowest_m(), terrain.highest_m(), terrain.z(0, 0)}) {
     candidates.try_change([&](LawInput& simpler) {
@@ -117,6 +172,10 @@ void simpler_heights(const LawInput& input, Candidates& candidates) {
     const double z = terrain.heights_m[k];
     for (const double simpler_z : {0.0, std::trunc(z / 2), std::trunc(z * 0.9), z - 1, z + 1}) {
       candidates.try_change([&](LawInput& simpler) { simpler.terrain.heights_m[k] = simpler_z; });
+      candidates.try_change([&](LawInput& simpler) {
+        simpler.terrain.heights_m[k] = simpler_z;
+        retune(simpler, most_curved_sample(simpler.terrain));
+      });
     }
   }
 }
@@ -129,8 +188,13 @@ double rounded(double x, int n) {
 }
 
 void simpler_cameras(const LawInput& input, Candidates& candidates) {
+  const std::size_t curved = most_curved_sample(input.terrain);
   const auto change_pose = [&](auto&& change) {
     candidates.try_change([&](LawInput& simpler) { change(simpler.poses.back()); });
+    candidates.try_change([&](LawInput& simpler) {
+      change(simpler.poses.back());
+      retune(simpler, curved);
+    });
   };
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
     for (Vec3 CameraPose::*end : {&CameraPose::position, &CameraPose::look_at}) {
