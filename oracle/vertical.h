@@ -14,14 +14,44 @@ struct VerticalError {
   double rms = 0;          ///< integrated exactly over the overlay, not sampled
   double mean = 0;         ///< of the absolute error, likewise
   Vec2 at;                 ///< where `max` is attained (lowest y, then x, among equals)
-  Vec2 certain_at;
+  Vec2 certain_at;         ///< the same for `certain_max`
   double area_m2 = 0;      ///< plan area that was judged; 0 means nothing was
+  friend bool operator==(const VerticalError&, const VerticalError&) = default;
 };
 
-/// O2: the exact difference of two piecewise linear surfaces over their common plan domain. All vertices of the overlay
-/// (samples, mesh vertices, crossings of mesh edges with grid lines and diagonals) are visited. Triangles that are not
-/// positively oriented in plan are skipped (O1 reports them).
+/// O2: the difference of two piecewise linear surfaces over their common plan domain, from every piece of the
+/// overlay (mesh triangles ∩ halves of grid cells); nothing is sampled.
+///
+/// What is exact. On a piece the error is linear, so `max` is attained at a vertex of the overlay: a sample,
+/// a mesh vertex, or a crossing of a mesh edge with a grid line or a diagonal. All are visited. The two ways
+/// to split a cell are the upper and the lower hull of its four samples: one concave, one convex. So the
+/// distance to their envelope is convex over the *whole* cell, and `certain_max` is attained at a sample, a
+/// mesh vertex, or a crossing with a grid line, where both ways agree. RMS and mean come from the closed
+/// forms for a linear function over a triangle, split at the change of sign.
+///
+/// What is rounded. Positions are taken in units of the spacing; a coordinate that is the double i·spacing_m
+/// becomes the integer i, so a mesh on grid samples is located exactly. Otherwise heights are evaluated in
+/// double, relative to a corner of the triangle: each visited value errs by at most kVerticalRoundingFactor ·
+/// 2⁻⁵³ · (range of the mesh's and the terrain's heights over the cells that the triangle touches) for
+/// samples' meshes; for vertices off the grid, the rounding of their coordinates adds (slope per cell) ·
+/// (coordinate in cells) · 2⁻⁵². A triangle that is one half of one cell, by either diagonal, is judged by
+/// differences of its corners' heights: the reference mesh gives exactly 0, any choice of diagonals a
+/// `certain_max` of exactly 0.
+///
+/// `max`, `certain_max` and their places do not depend on the order of triangles. `rms`, `mean` and `area_m2`
+/// are summed in mesh order (compensated); another order may change their last bit.
+///
+/// Skipped: triangles with a bad index or a non-finite corner, and those that are not positively oriented in
+/// plan (decided exactly; O1 reports them). What lies outside the grid is not judged. Overlapping triangles
+/// are judged each. Time: linear in samples covered + triangles + crossings; memory: two rows of samples.
+/// Thread-safe. Requires: terrain of at least 2 × 2 finite samples, spacing_m > 0; throws InputError
+/// otherwise.
 VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain);
+
+/// The factor of the rounding bound above. A value is made of at most a dozen operations on numbers inside
+/// the height range; slopes of a triangle at least an eighth of a cell high (thinner ones are evaluated
+/// between their corners only) reach a cell beyond it, which multiplies the range by up to 16.
+inline constexpr double kVerticalRoundingFactor = 256;
 
 /// The terrain's own ambiguity: the largest gap between the two ways to split a cell, metres.
 double diagonal_ambiguity_m(const Terrain& terrain);

@@ -1,0 +1,420 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A triangle is swept by rows of samples. On each row the samples inside form an interval, so between two
+// rows the halves of cells that lie wholly inside form an interval too: these go to the sums four errors a
+// cell, without a look at the edges. What is left at both ends is cut, nearly always by one edge; a half cell
+// cut by one line is a triangle or a quadrilateral whose areas and errors follow from the corners' distances
+// to the line. Halves cut by more edges are clipped as polygons (vertical_slivers.cpp).
+
+#include "oracle/vertical_overlay.h"
+
+#include <algorithm>
+
+namespace plumbline::oracle::detail {
+
+/// Distance to the line through an edge, times the edge's length: positive inside. Coordinates are columns
+/// and rows of the grid from `origin`; for corners on samples every distance is an exact integer.
+struct Overlay::Edge {
+  double by_x = 0, by_y = 0, constant = 0;
+  double noise = 0;        ///< below this a distance counts as zero: a bound on its rounding error
+  double column_step = 0;  ///< −1/by_x, 0 for an edge along a row
+
+  [[nodiscard]] double at(double x, double y) const { return by_x * x + (by_y * y + constant); }
+};
+
+/// The mesh triangle's plane: height over `base_m` at columns and rows from the origin.
+struct Overlay::Plane {
+  double base_m = 0, by_x = 0, by_y = 0, constant = 0;
+};
+
+/// Where a row of samples crosses the triangle; columns from the origin.
+struct Overlay::Row {
+  int y = 0;
+  bool meets = false;                  ///< the row's line meets the triangle
+  int first = 1, last = 0;             ///< samples inside; none if first > last
+  int first_cell = 0, last_cell = -1;  ///< cells that the row's line crosses inside the triangle
+};
+
+/// Two neighbouring rows of one triangle.
+struct Overlay::Strip {
+  const GridTriangle& triangle;
+  const std::array<Edge, 3>& edges;
+  const Row& south;
+  const Row& north;
+  int origin_x, origin_y;
+  int first_cell, last_cell;   ///< cells between the rows that the triangle may touch
+  const double* south_errors;  ///< by column from the origin
+  const double* north_errors;
+};
+
+namespace {
+
+/// ⌊x⌋ as an int. Requires: |x| < 2³¹.
+int floor_int(double x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - (truncated > x ? 1 : 0);
+}
+int ceil_int(double x) { return -floor_int(-x); }
+
+bool on_samples(const GridTriangle& triangle) {
+  return std::all_of(triangle.begin(), triangle.end(), [](const GridPoint& p) {
+    return p.x == static_cast<int>(p.x) && p.y == static_cast<int>(p.y);
+  });
+}
+
+/// Slivers narrower than this many cells are evaluated between their corners only: a plane fitted to them
+/// would lose digits on its way to the next sample.
+constexpr double kLeastHeightCells = 0.125;
+
+}  // namespace
+
+Overlay::Edge Overlay::make_edge(const GridPoint& from, const GridPoint& to) {
+  Edge edge;
+  edge.by_x = from.y - to.y;
+  edge.by_y = to.x - from.x;
+  edge.constant = -(edge.by_x * from.x + edge.by_y * from.y);
+  // Coordinates of samples stay within the triangle's box plus one cell, so each of the products and sums in
+  // a distance rounds by at most 2⁻⁵³ of this reach; corners between samples were rounded to 2⁻⁵³ of
+  // themselves before.
+  const double reach_x = std::max(std::fabs(from.x), std::fabs(to.x)) + 1;
+  const double reach_y = std::max(std::fabs(from.y), std::fabs(to.y)) + 1;
+  edge.noise = 0x1p-49 * (std::fabs(edge.by_x) * reach_x + std::fabs(edge.by_y) * reach_y);
+  edge.column_step = edge.by_x == 0 ? 0 : -1 / edge.by_x;
+  return edge;
+}
+
+Overlay::Plane Overlay::fit_plane(const GridTriangle& local) {
+  const double x1 = local[1].x - local[0].x, y1 = local[1].y - local[0].y, z1 = local[1].z - local[0].z;
+  const double x2 = local[2].x - local[0].x, y2 = local[2].y - local[0].y, z2 = local[2].z - local[0].z;
+  const double twice_area = x1 * y2 - x2 * y1;
+  Plane plane;
+  plane.base_m = local[0].z;
+  plane.by_x = (z1 * y2 - z2 * y1) / twice_area;
+  plane.by_y = (x1 * z2 - x2 * z1) / twice_area;
+  plane.constant = -(plane.by_x * local[0].x + plane.by_y * local[0].y);
+  return plane;
+}
+
+/// The samples and the cells that the row's line crosses inside the triangle, among samples 0 … last_column.
+void Overlay::cross_row(Row& row, const std::array<Edge, 3>& edges, int last_column) {
+  row.first = row.first_cell = 0;
+  row.last = row.last_cell = last_column;
+  for (const Edge& edge : edges) {
+    if (edge.by_x == 0) continue;
+    const double base = edge.by_y * row.y + edge.constant;
+    const auto distance = [&](int x) { return edge.by_x * x + base; };
+    // The division only proposes; which sample is the first inside is decided by the distances themselves.
+    int x = static_cast<int>(std::clamp(base * edge.column_step, 0.0, static_cast<double>(last_column)));
+    if (edge.by_x > 0) {
+      while (x > 0 && distance(x - 1) >= -edge.noise) --x;
+      while (x <= last_column && distance(x) < -edge.noise) ++x;
+      row.first = std::max(row.first, x);
+      row.first_cell = std::max(row.first_cell, distance(x) <= edge.noise ? x : x - 1);
+    } else {
+      while (x < last_column && distance(x + 1) >= -edge.noise) ++x;
+      while (x >= 0 && distance(x) < -edge.noise) --x;
+      row.last = std::min(row.last, x);
+      row.last_cell = std::min(row.last_cell, distance(x) <= edge.noise ? x - 1 : x);
+    }
+  }
+}
+
+Overlay::Overlay(const Terrain& terrain)
+    : terrain_(terrain),
+      columns_(terrain.columns),
+      rows_(terrain.rows),
+      south_errors_(static_cast<std::size_t>(terrain.columns)),
+      north_errors_(static_cast<std::size_t>(terrain.columns)) {}
+
+void Overlay::judge(const GridTriangle& given) {
+  const auto [west, east] = std::minmax({given[0].x, given[1].x, given[2].x});
+  const auto [south, north] = std::minmax({given[0].y, given[1].y, given[2].y});
+  if (east <= 0 || north <= 0 || west >= columns_ - 1 || south >= rows_ - 1) return;
+  if (west < -kFarCells || south < -kFarCells || east > kFarCells || north > kFarCells)
+    return judge_far(given);
+
+  // The same triangle from another corner is the same triangle: start at the southmost, then westmost.
+  GridTriangle triangle = given;
+  std::rotate(triangle.begin(),
+              std::min_element(
+                  triangle.begin(), triangle.end(),
+                  [](const GridPoint& p, const GridPoint& q) { return p.y != q.y ? p.y < q.y : p.x < q.x; }),
+              triangle.end());
+  if (east - west <= 1 && north - south <= 1 && judge_one_cell(triangle)) return;
+  judge_corners(triangle);
+  const double twice_area = (triangle[1].x - triangle[0].x) * (triangle[2].y - triangle[0].y) -
+                            (triangle[1].y - triangle[0].y) * (triangle[2].x - triangle[0].x);
+  const double extent = (east - west) + (north - south);
+  if (twice_area < kLeastHeightCells * extent) {
+    judge_sliver(triangle);
+  } else {
+    judge_rows(triangle);
+  }
+}
+
+/// A half of one cell, by either diagonal, from its corners' errors alone: no plane is fitted, so equal
+/// heights give 0.
+bool Overlay::judge_one_cell(const GridTriangle& triangle) {
+  if (!on_samples(triangle)) return false;
+  const double west = std::min({triangle[0].x, triangle[1].x, triangle[2].x});
+  const double south = triangle[0].y;
+  if (west < 0 || south < 0 || west > columns_ - 2 || south > rows_ - 2) return false;
+  const int column = static_cast<int>(west);
+  const int row = static_cast<int>(south);
+  std::array<double, 3> error{};
+  int corners_seen = 0;  // bit 0: south-west, 1: south-east, 2: north-west, 3: north-east
+  for (std::size_t k = 0; k < 3; ++k) {
+    const GridPoint& p = triangle[k];
+    error[k] = p.z - terrain_.z(static_cast<int>(p.x), static_cast<int>(p.y));
+    corners_seen |= 1 << (static_cast<int>(p.x - west) + 2 * static_cast<int>(p.y - south));
+    visit_everywhere(error[k], p.x, p.y);
+  }
+  const bool has_diagonal = (corners_seen & 0b1001) == 0b1001;
+  if (has_diagonal) {
+    sums_.add_triangle(error[0], error[1], error[2], 1);
+    return true;
+  }
+  // The other diagonal: the declared one crosses it in the cell's middle and cuts the half into two quarters.
+  for (std::size_t k = 0; k < 3; ++k) {
+    const GridPoint& right_angle = triangle[k];
+    const GridPoint& p = triangle[(k + 1) % 3];
+    const GridPoint& q = triangle[(k + 2) % 3];
+    if (p.x == q.x || p.y == q.y || (right_angle.x != p.x && right_angle.y != p.y)) continue;
+    const double middle = 0.5 * ((p.z + q.z) - (terrain_.z(column, row) + terrain_.z(column + 1, row + 1)));
+    visit_declared(middle, west + 0.5, south + 0.5);
+    sums_.add_triangle(error[k], error[(k + 1) % 3], middle, 0.5);
+    sums_.add_triangle(error[k], middle, error[(k + 2) % 3], 0.5);
+  }
+  return true;
+}
+
+/// Errors at the row's samples first … last, and the peak among those inside the triangle.
+void Overlay::errors_of_row(const Plane& plane, int origin_x, int origin_y, const Row& row, int first,
+                            int last, double* errors) {
+  const double* const heights = terrain_.heights_m.data() + terrain_.index(origin_x, origin_y + row.y);
+  const double row_height = plane.by_y * row.y + plane.constant;
+  for (int x = first; x <= last; ++x) errors[x] = (plane.by_x * x + row_height) - (heights[x] - plane.base_m);
+
+  const int inside_first = std::max(first, row.first);
+  const int inside_last = std::min(last, row.last);
+  if (!row.meets || inside_first > inside_last) return;
+  std::array<double, 4> lanes{};
+  int x = inside_first;
+  for (; x + 3 <= inside_last; x += 4) {
+    for (int lane = 0; lane < 4; ++lane) {
+      const double size = std::fabs(errors[x + lane]);
+      double& most = lanes[static_cast<std::size_t>(lane)];
+      most = most < size ? size : most;
+    }
+  }
+  for (; x <= inside_last; ++x) lanes[0] = std::max(lanes[0], std::fabs(errors[x]));
+  const double most = std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3]));
+  const double at_y = origin_y + row.y;
+  if (!certain_peak_.admits(most, origin_x + inside_first, at_y) &&
+      !peak_.admits(most, origin_x + inside_first, at_y)) {
+    return;
+  }
+  x = inside_first;
+  while (std::fabs(errors[x]) < most) ++x;
+  visit_everywhere(most, origin_x + x, at_y);
+}
+
+void Overlay::judge_rows(const GridTriangle& triangle) {
+  const auto [west, east] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+  const double south_end = std::min({triangle[0].y, triangle[1].y, triangle[2].y});
+  const double north_end = std::max({triangle[0].y, triangle[1].y, triangle[2].y});
+  const int origin_x = std::max(floor_int(west), 0);
+  const int origin_y = std::max(floor_int(south_end), 0);
+  const int last_column = std::min(ceil_int(east), columns_ - 1) - origin_x;
+  const int last_row = std::min(ceil_int(north_end), rows_ - 1) - origin_y;
+
+  GridTriangle local = triangle;
+  for (GridPoint& p : local) {
+    p.x -= origin_x;
+    p.y -= origin_y;
+  }
+  std::array<Edge, 3> edges;
+  for (std::size_t k = 0; k < 3; ++k) edges[k] = make_edge(local[k], local[(k + 1) % 3]);
+  const Plane plane = fit_plane(local);
+
+  const auto locate = [&](int y) {
+    Row row;
+    row.y = y;
+    row.meets = y >= south_end - origin_y && y <= north_end - origin_y;
+    if (row.meets) cross_row(row, edges, last_column);
+    return row;
+  };
+  // The cells that the triangle meets between two rows: from its cross-sections there and its corners in
+  // between.
+  const auto bound_cells = [&](const Row& south, const Row& north, int& first, int& last) {
+    first = last_column;
+    last = -1;
+    for (const Row* row : {&south, &north}) {
+      if (!row->meets) continue;
+      first = std::min(first, row->first_cell);
+      last = std::max(last, row->last_cell);
+    }
+    for (const GridPoint& p : local) {
+      if (p.y < south.y || p.y > north.y) continue;
+      first = std::min(first, floor_int(p.x));
+      last = std::max(last, ceil_int(p.x) - 1);
+    }
+    first = std::max(first, 0);
+    last = std::min(last, last_column - 1);
+  };
+
+  Row south = locate(0);
+  Row north = locate(1);
+  int first = 0, last = -1, next_first = 0, next_last = -1;
+  bound_cells(south, north, first, last);
+  errors_of_row(plane, origin_x, origin_y, south, first, last + 1, south_errors_.data());
+  for (int y = 0; y < last_row; ++y) {
+    Row beyond;
+    int row_first = first, row_last = last;
+    if (y + 1 < last_row) {
+      beyond = locate(y + 2);
+      bound_cells(north, beyond, next_first, next_last);
+      row_first = std::min(first, next_first);
+      row_last = std::max(last, next_last);
+    }
+    errors_of_row(plane, origin_x, origin_y, north, row_first, row_last + 1, north_errors_.data());
+    judge_strip({triangle, edges, south, north, origin_x, origin_y, first, last, south_errors_.data(),
+                 north_errors_.data()});
+    std::swap(south_errors_, north_errors_);
+    south = north;
+    north = beyond;
+    first = next_first;
+    last = next_last;
+  }
+}
+
+void Overlay::judge_strip(const Strip& strip) {
+  const Row& south = strip.south;
+  const Row& north = strip.north;
+  const bool crossed = south.meets && north.meets;
+  // Halves with all three samples inside the triangle.
+  const int southeast_first = std::max(south.first, north.first - 1);
+  const int southeast_last = crossed ? std::min(south.last, north.last) - 1 : southeast_first - 1;
+  const int northwest_first = std::max(south.first, north.first);
+  const int northwest_last = crossed ? std::min(south.last, north.last - 1) : northwest_first - 1;
+  const double* const s = strip.south_errors;
+  const double* const n = strip.north_errors;
+  const auto add_southeast = [&](int x) { sums_.add_triangle(s[x], s[x + 1], n[x + 1], 1); };
+  const auto add_northwest = [&](int x) { sums_.add_triangle(s[x], n[x + 1], n[x], 1); };
+
+  const int cell_first = std::max(southeast_first, northwest_first);
+  const int cell_last = std::min(southeast_last, northwest_last);
+  if (cell_first <= cell_last) {
+    sums_.add_cells(s + cell_first, n + cell_first, cell_last - cell_first + 1);
+    for (int x = southeast_first; x < cell_first; ++x) add_southeast(x);
+    for (int x = northwest_first; x < cell_first; ++x) add_northwest(x);
+    for (int x = cell_last + 1; x <= southeast_last; ++x) add_southeast(x);
+    for (int x = cell_last + 1; x <= northwest_last; ++x) add_northwest(x);
+  } else {
+    for (int x = southeast_first; x <= southeast_last; ++x) add_southeast(x);
+    for (int x = northwest_first; x <= northwest_last; ++x) add_northwest(x);
+  }
+
+  // West of a whole half, an edge that faces east has all samples inside: only edges that face west can cut.
+  const auto judge_rest = [&](Half half, int whole_first, int whole_last) {
+    if (whole_first > whole_last) return judge_halves(strip, half, strip.first_cell, strip.last_cell, 0b111);
+    unsigned west_edges = 0, east_edges = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (strip.edges[k].by_x > 0) west_edges |= 1u << k;
+      if (strip.edges[k].by_x < 0) east_edges |= 1u << k;
+    }
+    judge_halves(strip, half, strip.first_cell, whole_first - 1, west_edges);
+    judge_halves(strip, half, whole_last + 1, strip.last_cell, east_edges);
+  };
+  judge_rest(Half::southeast, southeast_first, southeast_last);
+  judge_rest(Half::northwest, northwest_first, northwest_last);
+}
+
+/// Halves that some edge of the mask may cut.
+void Overlay::judge_halves(const Strip& strip, Half half, int first, int last, unsigned edge_mask) {
+  const bool southeast = half == Half::southeast;
+  for (int x = first; x <= last; ++x) {
+    std::array<double, 3> cutting{};
+    int cuts = 0;
+    bool outside = false;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((edge_mask >> k & 1u) == 0) continue;
+      const Edge& edge = strip.edges[k];
+      const double south_base = edge.by_y * strip.south.y + edge.constant;
+      const double north_base = edge.by_y * strip.north.y + edge.constant;
+      const auto snapped = [&](double distance) {
+        return std::fabs(distance) <= edge.noise ? 0.0 : distance;
+      };
+      const std::array<double, 3> distance{
+          snapped(edge.by_x * x + south_base),
+          southeast ? snapped(edge.by_x * (x + 1) + south_base) : snapped(edge.by_x * (x + 1) + north_base),
+          southeast ? snapped(edge.by_x * (x + 1) + north_base) : snapped(edge.by_x * x + north_base)};
+      if (distance[0] <= 0 && distance[1] <= 0 && distance[2] <= 0) {
+        outside = true;
+        break;
+      }
+      if (distance[0] < 0 || distance[1] < 0 || distance[2] < 0) {
+        cutting = distance;
+        ++cuts;
+      }
+    }
+    if (outside) continue;
+    if (cuts == 1) {
+      cut_by_one(strip, half, x, cutting);
+    } else if (cuts > 1) {
+      clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
+    } else if (southeast) {
+      sums_.add_triangle(strip.south_errors[x], strip.south_errors[x + 1], strip.north_errors[x + 1], 1);
+    } else {
+      sums_.add_triangle(strip.south_errors[x], strip.north_errors[x + 1], strip.north_errors[x], 1);
+    }
+  }
+}
+
+/// A half cell cut by one line, which leaves corners on both sides. With d the corners' distances to the
+/// line, it crosses the side from p to q at the share d_p/(d_p − d_q), and the error there follows, being
+/// linear over the half.
+void Overlay::cut_by_one(const Strip& strip, Half half, int x, const std::array<double, 3>& distance) {
+  const bool southeast = half == Half::southeast;
+  const double* const s = strip.south_errors;
+  const double* const n = strip.north_errors;
+  const std::array<double, 3> error{s[x], southeast ? s[x + 1] : n[x + 1], southeast ? n[x + 1] : n[x]};
+
+  // `apex` stands alone on its side of the line; p and q follow it counter-clockwise.
+  const int inside = (distance[0] > 0 ? 1 : 0) + (distance[1] > 0 ? 1 : 0) + (distance[2] > 0 ? 1 : 0);
+  const bool apex_inside = inside == 1;
+  std::size_t apex = 0;
+  while (apex_inside ? !(distance[apex] > 0) : !(distance[apex] < 0)) ++apex;
+  if (!apex_inside && inside == 1) return;
+  const std::size_t p = (apex + 1) % 3;
+  const std::size_t q = (apex + 2) % 3;
+  const double to_p = distance[apex] / (distance[apex] - distance[p]);
+  const double to_q = distance[apex] / (distance[apex] - distance[q]);
+  const double at_p = error[apex] + to_p * (error[p] - error[apex]);
+  const double at_q = error[apex] + to_q * (error[q] - error[apex]);
+  if (apex_inside) {
+    sums_.add_triangle(error[apex], at_p, at_q, to_p * to_q);
+  } else {
+    sums_.add_triangle(error[p], error[q], at_q, 1 - to_q);
+    sums_.add_triangle(error[p], at_q, at_p, to_q * (1 - to_p));
+  }
+
+  const auto visit = [&](double crossing_error, std::size_t to, double share) {
+    const double size = std::fabs(crossing_error);
+    if (size < certain_peak_.value) return;
+    // Corner numbers: 0 south-west; south-east half: 1 south-east, 2 north-east; else 1 north-east, 2
+    // north-west.
+    const auto corner_x = [&](std::size_t k) { return k == 1 || (southeast && k == 2) ? 1.0 : 0.0; };
+    const auto corner_y = [&](std::size_t k) { return k == 2 || (!southeast && k == 1) ? 1.0 : 0.0; };
+    const double at_x = strip.origin_x + (x + (corner_x(apex) + share * (corner_x(to) - corner_x(apex))));
+    const double at_y =
+        strip.origin_y + (strip.south.y + (corner_y(apex) + share * (corner_y(to) - corner_y(apex))));
+    const bool on_diagonal = corner_x(apex) != corner_x(to) && corner_y(apex) != corner_y(to);
+    on_diagonal ? visit_declared(crossing_error, at_x, at_y) : visit_everywhere(crossing_error, at_x, at_y);
+  };
+  visit(at_p, p, to_p);
+  visit(at_q, q, to_q);
+}
+
+}  // namespace plumbline::oracle::detail

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Internal to O2 (vertical.h): one mesh triangle over the grid.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "oracle/vertical_pieces.h"
+#include "scenarios/terrain.h"
+
+namespace plumbline::oracle::detail {
+
+/// A corner in plan units of one cell: x = column, y = row (fractions between samples); z in metres.
+struct GridPoint {
+  double x = 0, y = 0, z = 0;
+};
+using GridTriangle = std::array<GridPoint, 3>;
+
+/// Coordinates beyond this many cells are cut to the grid before anything is computed from them: below it,
+/// products of two keep 53-bit accuracy to 2⁻²⁶ of a cell, and an int holds any of them.
+inline constexpr double kFarCells = 0x1p22;
+
+/// Visits every piece of (triangle ∩ grid) and gathers sums and peaks. One object judges one mesh.
+class Overlay {
+ public:
+  explicit Overlay(const Terrain& terrain);
+
+  /// Requires: counter-clockwise, coordinates finite.
+  void judge(const GridTriangle& triangle);
+  void finish() { sums_.finish(); }
+
+  [[nodiscard]] const PieceSums& sums() const { return sums_; }
+  [[nodiscard]] const Peak& peak() const { return peak_; }
+  [[nodiscard]] const Peak& certain_peak() const { return certain_peak_; }
+
+ private:
+  struct Edge;
+  struct Plane;
+  struct Row;
+  struct Strip;
+  enum class Half { southeast, northwest };
+
+  // vertical_overlay.cpp: triangles at least an eighth of a cell high, row by row.
+  static Edge make_edge(const GridPoint& from, const GridPoint& to);
+  static Plane fit_plane(const GridTriangle& local);
+  static void cross_row(Row& row, const std::array<Edge, 3>& edges, int last_column);
+  bool judge_one_cell(const GridTriangle& triangle);
+  void judge_rows(const GridTriangle& triangle);
+  void errors_of_row(const Plane& plane, int origin_x, int origin_y, const Row& row, int first, int last,
+                     double* errors);
+  void judge_strip(const Strip& strip);
+  void judge_halves(const Strip& strip, Half half, int first, int last, unsigned edge_mask);
+  void cut_by_one(const Strip& strip, Half half, int x, const std::array<double, 3>& distance);
+
+  // vertical_slivers.cpp: what is left: thin triangles, cells cut by two edges, corners between samples.
+  void judge_corners(const GridTriangle& triangle);
+  void judge_far(const GridTriangle& triangle);
+  void judge_sliver(const GridTriangle& triangle);
+  void clip_to_half(const GridTriangle& triangle, int column, int row, Half half);
+
+  void visit_everywhere(double error, double x, double y) {
+    const double size = std::fabs(error);
+    if (size >= certain_peak_.value) certain_peak_.visit(size, x, y);
+    if (size >= peak_.value) peak_.visit(size, x, y);
+  }
+  void visit_declared(double error, double x, double y) {
+    const double size = std::fabs(error);
+    if (size >= peak_.value) peak_.visit(size, x, y);
+  }
+
+  const Terrain& terrain_;
+  const int columns_, rows_;
+  std::vector<double> south_errors_,
+      north_errors_;  ///< two rows of samples, by column from a triangle's origin
+  PieceSums sums_;
+  Peak peak_, certain_peak_;
+};
+
+}  // namespace plumbline::oracle::detail
