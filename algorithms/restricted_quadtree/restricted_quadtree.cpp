@@ -162,14 +162,17 @@ void RestrictedQuadtree::select(const RightTriangle& triangle, int level) {
 }
 
 void RestrictedQuadtree::enable(GridPoint node) {
+  const auto newly = [&](GridPoint p) {
+    return std::exchange(enabled_[prepared_->grid.index(p)], stamp_) != stamp_;
+  };
+  if (!newly(node)) return;
   pending_.push_back(node);
   while (!pending_.empty()) {
     const GridPoint next = pending_.back();
     pending_.pop_back();
-    std::uint32_t& mark = enabled_[prepared_->grid.index(next)];
-    if (mark == stamp_) continue;
-    mark = stamp_;
-    for (const GridPoint parent : prepared_->grid.parents(next)) pending_.push_back(parent);
+    for (const GridPoint parent : prepared_->grid.parents(next)) {
+      if (newly(parent)) pending_.push_back(parent);
+    }
   }
 }
 
