@@ -36,6 +36,30 @@ double height_on_edge(Vec3 a, Vec3 b, Vec2 p) {
   return a.z + std::clamp(share, 0.0, 1.0) * (b.z - a.z);
 }
 
+struct WeightedCorner {
+  double weight;
+  const Vec3& corner;
+};
+
+/// Height over a point inside a triangle, from its barycentric weights. Begins with the westmost corner (the
+/// southmost of two) and goes on to the other two in that order, so that the bits do not depend on how the
+/// triangle is listed.
+double height_inside(WeightedCorner a, WeightedCorner b, WeightedCorner c) {
+  const WeightedCorner* first = &a;
+  const WeightedCorner* second = &b;
+  const WeightedCorner* third = &c;
+  const auto before = [](const WeightedCorner* p, const WeightedCorner* q) {
+    return p->corner.x != q->corner.x ? p->corner.x < q->corner.x : p->corner.y < q->corner.y;
+  };
+  if (before(second, first)) std::swap(first, second);
+  if (before(third, second)) std::swap(second, third);
+  if (before(second, first)) std::swap(first, second);
+  const double area = (first->weight + second->weight) + third->weight;
+  const double rise = second->weight * (second->corner.z - first->corner.z) +
+                      third->weight * (third->corner.z - first->corner.z);
+  return first->corner.z + rise / area;
+}
+
 bool usable_triangle(std::span<const std::uint8_t> usable, std::size_t t) {
   return usable.empty() || usable[t] != 0;
 }
@@ -59,7 +83,7 @@ std::optional<double> height_over(Vec3 a, Vec3 b, Vec3 c, Vec2 p) {
   if (!((ea >= 0 && eb >= 0 && ec >= 0) || (ea <= 0 && eb <= 0 && ec <= 0))) return std::nullopt;
   const double area = (ea + eb) + ec;
   if (area == 0 || !std::isfinite(area)) return std::nullopt;
-  if (ea != 0 && eb != 0 && ec != 0) return a.z + (eb * (b.z - a.z) + ec * (c.z - a.z)) / area;
+  if (ea != 0 && eb != 0 && ec != 0) return height_inside({ea, a}, {eb, b}, {ec, c});
   for (const Vec3& corner : {a, b, c}) {
     if (corner.x == p.x && corner.y == p.y) return corner.z;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenarios/camera.h"
 
@@ -77,13 +78,24 @@ struct EdgeFunctions {
   Vec3 a, b, c;       ///< b × c, c × a, a × b: the function of the edge opposite to the corner
   double az, bz, cz;  ///< the corners' depths, metres
 
-  EdgeFunctions(Vec3 corner_a, Vec3 corner_b, Vec3 corner_c)
-      : a(cross(corner_b, corner_c)),
-        b(cross(corner_c, corner_a)),
-        c(cross(corner_a, corner_b)),
-        az(corner_a.z),
-        bz(corner_b.z),
-        cz(corner_c.z) {}
+  /// The corners in the camera's frame. Their order does not matter: they are sorted, so that a triangle's
+  /// depth has the same bits whichever corner it begins with and whichever way it turns.
+  EdgeFunctions(Vec3 corner_a, Vec3 corner_b, Vec3 corner_c) {
+    if (before(corner_b, corner_a)) std::swap(corner_a, corner_b);
+    if (before(corner_c, corner_b)) std::swap(corner_b, corner_c);
+    if (before(corner_b, corner_a)) std::swap(corner_a, corner_b);
+    a = cross(corner_b, corner_c);
+    b = cross(corner_c, corner_a);
+    c = cross(corner_a, corner_b);
+    az = corner_a.z;
+    bz = corner_b.z;
+    cz = corner_c.z;
+  }
+  /// By depth, then up the picture; only then across it, so that a mirrored picture mostly keeps the order.
+  static bool before(Vec3 p, Vec3 q) {
+    if (p.z != q.z) return p.z < q.z;
+    return p.y != q.y ? p.y < q.y : p.x < q.x;
+  }
 
   /// An edge function's part that is the same along a row of pixels, and the whole of it.
   static double row_part(Vec3 edge, double y) { return edge.z + edge.y * y; }
