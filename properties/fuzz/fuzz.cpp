@@ -80,7 +80,8 @@ class Campaign {
       }
       if (seconds_ > 0 && elapsed(began) >= seconds_) break;
       const DrawnCase drawn = draw_case(method_, options_.seed, cases_);
-      for (std::size_t k = 0; k < laws_.size(); ++k) try_law(*laws_[k], drawn.input, tallies_[k]);
+      const bool accepted = !options_.accept || options_.accept(drawn.input);
+      for (std::size_t k = 0; accepted && k < laws_.size(); ++k) try_law(*laws_[k], drawn.input, tallies_[k]);
       constexpr double kProgressEachS = 0.2;
       if (options_.progress && elapsed(start_) - last_progress_s >= kProgressEachS) {
         last_progress_s = elapsed(start_);
@@ -118,7 +119,7 @@ class Campaign {
     ++violations_;
     if (!tally.first_violation) tally.first_violation = cases_;
     if (tally.violated > kShrunkEach) return;
-    Shrunk shrunk = shrink(law, input, outcome, kShrinkTrials);
+    Shrunk shrunk = shrink(law, input, outcome, kShrinkTrials, options_.accept);
     if (!tally.smallest || complexity(shrunk.input) < complexity(*tally.smallest)) {
       tally.smallest = std::move(shrunk.input);
       tally.smallest_outcome = std::move(shrunk.outcome);

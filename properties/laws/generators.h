@@ -44,7 +44,8 @@ struct Shrunk {
 };
 /// Goes down the shrink tree while the law is still violated with the same finding code, to a local minimum
 /// or until `trials_max` trials were made. Requires: the law is violated on `input`.
+/// Candidates that `accept` (if given) turns down are not tried, so a search for gentle terrain stays on it.
 Shrunk shrink(const Law& law, const LawInput& input, const LawOutcome& outcome,
-              std::uint64_t trials_max = 200000);
+              std::uint64_t trials_max = 200000, const std::function<bool(const LawInput&)>& accept = {});
 
 }  // namespace plumbline::properties

@@ -309,7 +309,8 @@ std::vector<LawInput> simpler_inputs(const LawInput& input) {
   return candidates.take();
 }
 
-Shrunk shrink(const Law& law, const LawInput& input, const LawOutcome& outcome, std::uint64_t trials_max) {
+Shrunk shrink(const Law& law, const LawInput& input, const LawOutcome& outcome, std::uint64_t trials_max,
+              const std::function<bool(const LawInput&)>& accept) {
   Shrunk best{input, outcome, 0};
   auto node = rc::shrinkable::shrinkRecur(
       input, [](const LawInput& from) { return rc::seq::fromContainer(simpler_inputs(from)); });
@@ -321,6 +322,7 @@ Shrunk shrink(const Law& law, const LawInput& input, const LawOutcome& outcome, 
       if (!child) break;
       ++best.trials;
       LawInput candidate = child->value();
+      if (accept && !accept(candidate)) continue;
       if (auto found = violated_alike(law, candidate, outcome)) {
         best.input = std::move(candidate);
         best.outcome = std::move(*found);
