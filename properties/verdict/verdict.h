@@ -120,7 +120,7 @@ struct SuiteVerdict {
 struct RunTiming {
   std::string run;
   double prepare_s = 0;
-  std::vector<double> update_ms;  ///< one a frame
+  std::vector<double> update_ms;  ///< one a frame: processor time of the thread that updates
   double oracle_s = 0;
 };
 struct SuiteTiming {
