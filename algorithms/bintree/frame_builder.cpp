@@ -8,8 +8,8 @@
 
 namespace plumbline::bintree {
 
-FrameBuilder::FrameBuilder(const Terrain& terrain)
-    : terrain_(&terrain), slots_(terrain.heights_m.size(), 0) {}
+FrameBuilder::FrameBuilder(const Terrain& terrain, const LevelOrder& order)
+    : terrain_(&terrain), order_(order), slots_(order.size(), 0) {}
 
 void FrameBuilder::begin(LodFrame& frame) {
   frame.clear();
@@ -23,13 +23,12 @@ void FrameBuilder::begin(LodFrame& frame) {
 }
 
 std::uint32_t FrameBuilder::vertex(GridPoint p) {
-  const std::size_t sample = terrain_->index(p.i, p.j);
-  std::uint64_t& slot = slots_[sample];
+  std::uint64_t& slot = slots_[order_.index(p)];
   if (slot >> 32 == stamp_) return static_cast<std::uint32_t>(slot);
   const auto index = static_cast<std::uint32_t>(frame_->mesh.positions.size());
   slot = std::uint64_t{stamp_} << 32 | index;
   frame_->mesh.positions.push_back(terrain_->point(p.i, p.j));
-  frame_->vertex_keys.push_back(sample);
+  frame_->vertex_keys.push_back(terrain_->index(p.i, p.j));
   return index;
 }
 

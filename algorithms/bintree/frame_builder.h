@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithms/bintree/cluster_grid.h"
+#include "algorithms/bintree/level_order.h"
 #include "algorithms/lod_method.h"
 
 namespace plumbline::bintree {
@@ -17,7 +17,7 @@ namespace plumbline::bintree {
 class FrameBuilder {
  public:
   FrameBuilder() = default;
-  explicit FrameBuilder(const Terrain& terrain);
+  FrameBuilder(const Terrain& terrain, const LevelOrder& order);
 
   /// Starts a frame: clears it and remembers it until finish().
   void begin(LodFrame& frame);
@@ -36,8 +36,9 @@ class FrameBuilder {
 
   const Terrain* terrain_ = nullptr;
   LodFrame* frame_ = nullptr;
-  std::uint32_t stamp_ = 0;           ///< number of the frame, from 1
-  std::vector<std::uint64_t> slots_;  ///< by sample: stamp of its last use << 32 | vertex index
+  std::uint32_t stamp_ = 0;  ///< number of the frame, from 1
+  LevelOrder order_;
+  std::vector<std::uint64_t> slots_;  ///< in level order: stamp of its last use << 32 | vertex index
   std::vector<RightTriangle> dropped_;
 };
 

@@ -7,11 +7,12 @@
 
 namespace plumbline::bintree {
 
-std::vector<double> diamond_radii_m(const Terrain& terrain, const ClusterGrid& grid) {
+std::vector<double> diamond_radii_m(const Terrain& terrain, const ClusterGrid& grid,
+                                    const LevelOrder& order) {
   // In plan the diamond's farthest points are its corners, at half a hypotenuse; in height its samples' range
   // counts.
   const std::vector<double>& z = terrain.heights_m;
-  std::vector<double> radius_m(z.size(), 0.0);
+  std::vector<double> radius_m(order.size(), 0.0);
   std::vector<double> lowest(z), highest(z);  // over the diamond of each node
   std::vector<double> half_hypotenuse_squared(static_cast<std::size_t>(grid.levels()));
   for (int level = 0; level < grid.levels(); ++level) {
@@ -33,7 +34,8 @@ std::vector<double> diamond_radii_m(const Terrain& terrain, const ClusterGrid& g
     lowest[s.node] = low;
     highest[s.node] = high;
     const double rise = std::max(high - z[s.node], z[s.node] - low);
-    radius_m[s.node] = std::sqrt(half_hypotenuse_squared[static_cast<std::size_t>(s.level)] + rise * rise);
+    radius_m[order.index(s.at, s.level)] =
+        std::sqrt(half_hypotenuse_squared[static_cast<std::size_t>(s.level)] + rise * rise);
   });
   return radius_m;
 }

@@ -6,14 +6,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "algorithms/bintree/cluster_grid.h"
+#include "algorithms/bintree/level_order.h"
 
 namespace plumbline::bintree {
 
-/// A split node as a bottom-up sweep meets it: sample indices only, corners and children as ClusterGrid has
+/// A split node as a bottom-up sweep meets it, in sample indices: corners and children as ClusterGrid has
 /// them.
 struct SweepNode {
   std::size_t node = 0;
+  GridPoint at;  ///< of `node`
   int level = 0;
   std::size_t left = 0, right = 0;  ///< ends of the hypotenuse
   std::array<std::size_t, 2> apexes{};
@@ -55,6 +56,7 @@ void sweep_bottom_up(const ClusterGrid& grid, Visit&& visit) {
         for (std::size_t i = h; i < columns; i += 2 * h) {
           SweepNode s;
           s.node = row + i;
+          s.at = {static_cast<int>(i), static_cast<int>(j)};
           s.level = level;
           s.left = s.node - h;
           s.right = s.node + h;
@@ -67,6 +69,7 @@ void sweep_bottom_up(const ClusterGrid& grid, Visit&& visit) {
         for (std::size_t i = 0; i < columns; i += 2 * h) {
           SweepNode s;
           s.node = row + i;
+          s.at = {static_cast<int>(i), static_cast<int>(j)};
           s.level = level;
           s.left = s.node - up;
           s.right = s.node + up;
@@ -84,6 +87,7 @@ void sweep_bottom_up(const ClusterGrid& grid, Visit&& visit) {
       for (std::size_t i = h; i < columns; i += 2 * h) {
         SweepNode s;
         s.node = centre_j * columns + i;
+        s.at = {static_cast<int>(i), static_cast<int>(centre_j)};
         s.level = level - 1;
         const bool rising = 2 * h == side || ((i ^ centre_j) & (2 * h)) == 0;
         const std::size_t sw = s.node - up - h, se = s.node - up + h, nw = s.node + up - h,
@@ -100,8 +104,8 @@ void sweep_bottom_up(const ClusterGrid& grid, Visit&& visit) {
   }
 }
 
-/// By sample index: the radius, metres, of a ball around each split node that holds every sample of its
+/// In level order: the radius, metres, of a ball around each split node that holds every sample of its
 /// diamond (its one or two triangles, to the finest level). 0 at cluster corners.
-std::vector<double> diamond_radii_m(const Terrain& terrain, const ClusterGrid& grid);
+std::vector<double> diamond_radii_m(const Terrain& terrain, const ClusterGrid& grid, const LevelOrder& order);
 
 }  // namespace plumbline::bintree

@@ -38,13 +38,15 @@ void BlockBintree::prepare(const Terrain& terrain) {
   made->split_function = SplitFunction(terrain, grid, constants);
   const int block_exponent = std::bit_width(static_cast<unsigned>(settings_.block_samples) - 1) - 1;
   made->blocks = BlockTree(terrain, grid, std::min(block_exponent, grid.exponent()));
-  if (settings_.cull_triangles) made->radii_m = bintree::diamond_radii_m(terrain, grid);
+  if (settings_.cull_triangles) {
+    made->radii_m = bintree::diamond_radii_m(terrain, grid, made->split_function.order());
+  }
   adopt(std::move(made));
 }
 
 void BlockBintree::adopt(std::shared_ptr<const Prepared> prepared) {
   prepared_ = std::move(prepared);
-  builder_ = bintree::FrameBuilder(*prepared_->terrain);
+  builder_ = bintree::FrameBuilder(*prepared_->terrain, prepared_->split_function.order());
   replaced_.assign(prepared_->blocks.count(), 0);
   stamp_ = 0;
 }
@@ -87,9 +89,8 @@ bool BlockBintree::culled(GridPoint node, int level) const {
     return true;
   }
   if (!settings_.cull_triangles) return false;
-  const ClusterGrid& grid = prepared_->split_function.grid();
-  return frame_.camera.outside_view_cone(prepared_->split_function.point(node),
-                                         prepared_->radii_m[grid.index(node)]);
+  const SplitFunction& f = prepared_->split_function;
+  return frame_.camera.outside_view_cone(f.point(node), prepared_->radii_m[f.order().index(node, level)]);
 }
 
 void BlockBintree::descend(const RightTriangle& triangle, int level, int last_level) {

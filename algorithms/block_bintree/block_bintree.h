@@ -48,7 +48,7 @@ class BlockBintree final : public LodMethod {
     const Terrain* terrain = nullptr;
     SplitFunction split_function;
     BlockTree blocks;
-    std::vector<double> radii_m;  ///< tri_cull: of each split node's diamond
+    std::vector<double> radii_m;  ///< tri_cull: of each split node's diamond, in level order
   };
 
   void adopt(std::shared_ptr<const Prepared> prepared);

@@ -51,7 +51,8 @@ MethodDescription describe_block_bintree() {
   return {
       .id = "block_bintree",
       .title = "Block quadtree and right-triangle bintree with a saturated split function",
-      .citation = "\"Real-time navigation over unlimited terrain\" (in Russian; the text at hand names no authors)",
+      .citation =
+          "\"Real-time navigation over unlimited terrain\" (in Russian; the text at hand names no authors)",
       .section = "M4",
       .variants =
           {

@@ -57,15 +57,16 @@ double steepest_slope(const Terrain& terrain, const ClusterGrid& grid) {
 
 SplitFunction::SplitFunction(const Terrain& terrain, const ClusterGrid& grid, SplitConstants constants)
     : terrain_(&terrain),
-      heights_m_(terrain.heights_m.data()),
       spacing_m_(terrain.spacing_m),
       grid_(grid),
+      order_(grid),
       constants_(constants),
-      e_m_(grid.samples(), 0.0) {
+      nodes_(order_.size()) {
   const double q = constants.saturation;
-  const double* z = heights_m_;
-  double* e = e_m_.data();
-  bintree::sweep_bottom_up(grid_, [=](const bintree::SweepNode& s) {
+  std::vector<double> e_by_sample(grid.samples(), 0.0);
+  const double* z = terrain.heights_m.data();
+  double* e = e_by_sample.data();
+  bintree::sweep_bottom_up(grid_, [&, z, e, q](const bintree::SweepNode& s) {
     double value = std::fabs(z[s.node] - (z[s.left] + z[s.right]) / 2);
     if (s.apex_count == 2) {
       value = std::max(value, std::fabs(z[s.node] - (z[s.apexes[0]] + z[s.apexes[1]]) / 2));
@@ -73,12 +74,13 @@ SplitFunction::SplitFunction(const Terrain& terrain, const ClusterGrid& grid, Sp
     for (int c = 0; c < s.child_count; ++c)
       value = std::max(value, q * e[s.children[static_cast<std::size_t>(c)]]);
     e[s.node] = value;
+    nodes_[order_.index(s.at, s.level)] = {z[s.node], value};
   });
 }
 
 double SplitFunction::deviation_m(GridPoint node) const {
   const bintree::Diamond diamond = grid_.diamond(node);
-  const auto z = [&](GridPoint p) { return heights_m_[grid_.index(p)]; };
+  const auto z = [&](GridPoint p) { return terrain_->z(p.i, p.j); };
   double value = std::fabs(z(node) - (z(diamond.left) + z(diamond.right)) / 2);
   if (diamond.apexes.count == 2) {
     value =

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "algorithms/bintree/cluster_grid.h"
+#include "algorithms/bintree/level_order.h"
 #include "scenarios/camera.h"
 #include "scenarios/terrain.h"
 
@@ -45,9 +45,9 @@ class SplitFunction {
 
   /// δ of equation 1, metres: the node's own deviation, the larger over the diamond's existing corner pairs.
   [[nodiscard]] double deviation_m(GridPoint node) const;
-  /// e of equation 10, metres; by sample index, 0 at cluster corners.
-  [[nodiscard]] double e_m(GridPoint node) const { return e_m_[grid_.index(node)]; }
-  [[nodiscard]] const std::vector<double>& table() const { return e_m_; }
+  /// e of equation 10, metres; Requires: a split node.
+  [[nodiscard]] double e_m(GridPoint node) const { return nodes_[order_.index(node)].e_m; }
+  [[nodiscard]] const bintree::LevelOrder& order() const { return order_; }
   [[nodiscard]] Vec3 point(GridPoint p) const { return terrain_->point(p.i, p.j); }
 
   /// The frame's part of the split test. `e·κ/τ` is evaluated as e·(κ/τ), and d/ε_d once a level.
@@ -60,9 +60,9 @@ class SplitFunction {
 
   /// Equation 8: split iff max(e·κ/τ, d/ε_d) ≥ depth. Always at depth ≤ 0. `level` is the node's.
   [[nodiscard]] bool splits(const Frame& frame, GridPoint node, int level) const {
-    const std::size_t k = grid_.index(node);
-    const double depth_m = frame.camera.depth({node.i * spacing_m_, node.j * spacing_m_, heights_m_[k]});
-    return e_m_[k] * frame.px_ratio >= depth_m ||
+    const Node& n = nodes_[order_.index(node, level)];
+    const double depth_m = frame.camera.depth({node.i * spacing_m_, node.j * spacing_m_, n.z_m});
+    return n.e_m * frame.px_ratio >= depth_m ||
            frame.depth_limit_m[static_cast<std::size_t>(level)] >= depth_m;
   }
   /// The same for one node, for laws and tests.
@@ -71,12 +71,18 @@ class SplitFunction {
   }
 
  private:
+  /// What a split test reads of a node, side by side.
+  struct Node {
+    double z_m = 0;
+    double e_m = 0;
+  };
+
   const Terrain* terrain_ = nullptr;
-  const double* heights_m_ = nullptr;
   double spacing_m_ = 0;
   ClusterGrid grid_;
+  bintree::LevelOrder order_;
   SplitConstants constants_;
-  std::vector<double> e_m_;
+  std::vector<Node> nodes_;  ///< in level order
 };
 
 }  // namespace plumbline::block_bintree

@@ -34,6 +34,7 @@ namespace {
 
 using bintree::ClusterGrid;
 using bintree::GridPoint;
+using bintree::LevelOrder;
 using bintree::RightTriangle;
 
 class RestrictedQuadtree final : public LodMethod {
@@ -55,23 +56,24 @@ class RestrictedQuadtree final : public LodMethod {
   struct Prepared {
     const Terrain* terrain = nullptr;
     ClusterGrid grid;
-    std::vector<Vertex> vertices;  ///< by sample
+    LevelOrder order;
+    std::vector<Vertex> vertices;  ///< in level order
   };
 
   void adopt(std::shared_ptr<const Prepared> prepared);
-  [[nodiscard]] bool outside_view(GridPoint node) const;
+  [[nodiscard]] bool outside_view(GridPoint node, int level) const;
   void select(const RightTriangle& triangle, int level);
-  void enable(GridPoint node);
-  [[nodiscard]] bool enabled(GridPoint node) const { return enabled_[prepared_->grid.index(node)] == stamp_; }
+  void enable(GridPoint node, int level);
   void triangulate(const RightTriangle& triangle, int level);
 
   double cluster_samples_ = 0;
   bool cull_ = false;
   std::shared_ptr<const Prepared> prepared_;
   bintree::FrameBuilder builder_;
-  std::vector<std::uint32_t> enabled_;  ///< by sample: the frame that last enabled it
+  std::vector<std::uint32_t> enabled_;  ///< in level order: the frame that last enabled it
   std::uint32_t stamp_ = 0;             ///< number of the frame, from 1
-  std::vector<GridPoint> pending_;      ///< enabled vertices whose parents are still to be enabled
+  std::vector<std::pair<GridPoint, int>>
+      pending_;  ///< enabled, with level; their parents are still to be enabled
   Camera camera_;
   double px_ratio_ = 0;  ///< κ/τ
   Counters counters_;
@@ -82,24 +84,26 @@ void RestrictedQuadtree::prepare(const Terrain& terrain) {
   made->terrain = &terrain;
   made->grid = ClusterGrid(terrain, cluster_samples_, "restricted_quadtree");
   const std::vector<double>& z = terrain.heights_m;
-  const std::vector<double> radii_m = bintree::diamond_radii_m(terrain, made->grid);
-  std::vector<Vertex>& vertices = made->vertices;
-  vertices.resize(z.size());
-  for (std::size_t k = 0; k < z.size(); ++k) vertices[k] = {z[k], 0, radii_m[k]};
+  made->order = LevelOrder(made->grid);
+  const std::vector<double> radii_m = bintree::diamond_radii_m(terrain, made->grid, made->order);
+  std::vector<double> errors_m(z.size(), 0.0);  // by sample
+  made->vertices.resize(made->order.size());
   bintree::sweep_bottom_up(made->grid, [&](const bintree::SweepNode& s) {
     double error_m = std::fabs(z[s.node] - (z[s.left] + z[s.right]) / 2);
     for (int c = 0; c < s.child_count; ++c) {
-      error_m = std::max(error_m, vertices[s.children[static_cast<std::size_t>(c)]].error_m);
+      error_m = std::max(error_m, errors_m[s.children[static_cast<std::size_t>(c)]]);
     }
-    vertices[s.node].error_m = error_m;
+    errors_m[s.node] = error_m;
+    const std::size_t k = made->order.index(s.at, s.level);
+    made->vertices[k] = {z[s.node], error_m, radii_m[k]};
   });
   adopt(std::move(made));
 }
 
 void RestrictedQuadtree::adopt(std::shared_ptr<const Prepared> prepared) {
   prepared_ = std::move(prepared);
-  builder_ = bintree::FrameBuilder(*prepared_->terrain);
-  enabled_.assign(prepared_->grid.samples(), 0);
+  builder_ = bintree::FrameBuilder(*prepared_->terrain, prepared_->order);
+  enabled_.assign(prepared_->order.size(), 0);
   stamp_ = 0;
 }
 
@@ -129,7 +133,7 @@ void RestrictedQuadtree::update(const Camera& camera, LodFrame& frame) {
     }
   };
   every_root([&](const RightTriangle& half) {
-    enable(half.split_node());
+    enable(half.split_node(), 0);
     select(half, 0);
   });
   every_root([&](const RightTriangle& half) { triangulate(half, 0); });
@@ -137,8 +141,8 @@ void RestrictedQuadtree::update(const Camera& camera, LodFrame& frame) {
   frame.counters = counters_;
 }
 
-bool RestrictedQuadtree::outside_view(GridPoint node) const {
-  const Vertex& v = prepared_->vertices[prepared_->grid.index(node)];
+bool RestrictedQuadtree::outside_view(GridPoint node, int level) const {
+  const Vertex& v = prepared_->vertices[prepared_->order.index(node, level)];
   const double spacing_m = prepared_->grid.spacing_m();
   return camera_.outside_view_cone({node.i * spacing_m, node.j * spacing_m, v.z_m}, v.radius_m);
 }
@@ -147,31 +151,31 @@ void RestrictedQuadtree::select(const RightTriangle& triangle, int level) {
   if (level == prepared_->grid.levels()) return;
   ++counters_.visited;
   const GridPoint node = triangle.split_node();
-  const Vertex& v = prepared_->vertices[prepared_->grid.index(node)];
+  const Vertex& v = prepared_->vertices[prepared_->order.index(node, level)];
   if (v.error_m == 0) return;  // and so are all below
-  if (cull_ && outside_view(node)) return;
+  if (cull_ && outside_view(node, level)) return;
   ++counters_.evaluated;
   const double spacing_m = prepared_->grid.spacing_m();
   const double distance_m = length(Vec3{node.i * spacing_m, node.j * spacing_m, v.z_m} - camera_.position);
   const double reach_m = v.error_m * px_ratio_;  // up to this distance the error is above τ
-  if (reach_m > distance_m) enable(node);
+  if (reach_m > distance_m) enable(node, level);
   // All vertices below have at most this error and stand inside the ball.
   if (reach_m <= distance_m - v.radius_m) return;
   select(triangle.left_half(node), level + 1);
   select(triangle.right_half(node), level + 1);
 }
 
-void RestrictedQuadtree::enable(GridPoint node) {
-  const auto newly = [&](GridPoint p) {
-    return std::exchange(enabled_[prepared_->grid.index(p)], stamp_) != stamp_;
+void RestrictedQuadtree::enable(GridPoint node, int level) {
+  const auto newly = [&](GridPoint p, int l) {
+    return std::exchange(enabled_[prepared_->order.index(p, l)], stamp_) != stamp_;
   };
-  if (!newly(node)) return;
-  pending_.push_back(node);
+  if (!newly(node, level)) return;
+  pending_.emplace_back(node, level);
   while (!pending_.empty()) {
-    const GridPoint next = pending_.back();
+    const auto [next, next_level] = pending_.back();
     pending_.pop_back();
     for (const GridPoint parent : prepared_->grid.parents(next)) {
-      if (newly(parent)) pending_.push_back(parent);
+      if (newly(parent, next_level - 1)) pending_.emplace_back(parent, next_level - 1);
     }
   }
 }
@@ -183,11 +187,11 @@ void RestrictedQuadtree::triangulate(const RightTriangle& triangle, int level) {
     return;
   }
   const GridPoint node = triangle.split_node();
-  if (cull_ && outside_view(node)) {
+  if (cull_ && outside_view(node, level)) {
     builder_.drop(triangle);
     return;
   }
-  if (!enabled(node)) {
+  if (enabled_[prepared_->order.index(node, level)] != stamp_) {
     builder_.emit(triangle);
     return;
   }

@@ -144,6 +144,7 @@ TEST(SweepBottomUp, VisitsEveryNodeOnceAfterItsChildren) {
       ++visits;
       EXPECT_EQ(seen[s.node]++, 0);
       const GridPoint p = point(s.node);
+      EXPECT_EQ(s.at, p);
       EXPECT_EQ(s.level, grid.level(p));
       const Diamond diamond = grid.diamond(p);
       EXPECT_TRUE(point(s.left) == diamond.left && point(s.right) == diamond.right);
@@ -164,6 +165,28 @@ TEST(SweepBottomUp, VisitsEveryNodeOnceAfterItsChildren) {
   }
 }
 
+TEST(LevelOrder, NumbersEverySampleOnceCoarseLevelsFirst) {
+  for (const auto& [columns, rows, cluster] :
+       {std::tuple{17, 17, 0.0}, std::tuple{17, 25, 0.0}, std::tuple{25, 9, 3.0}, std::tuple{3, 3, 0.0}}) {
+    const Terrain terrain = lattice::flat(columns, rows);
+    const ClusterGrid grid(terrain, cluster, "test");
+    const LevelOrder order(grid);
+    std::vector<int> level_of(order.size(), -1);
+    for (int j = 0; j < rows; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        const GridPoint p{i, j};
+        const int level = grid.is_split_node(p) ? grid.level(p) : grid.levels();
+        ASSERT_LT(order.index(p), order.size());
+        EXPECT_EQ(order.index(p), order.index(p, level));
+        EXPECT_EQ(std::exchange(level_of[order.index(p)], level), -1) << i << "," << j;
+      }
+    }
+    std::erase(level_of, -1);
+    EXPECT_EQ(level_of.size(), grid.samples());
+    EXPECT_TRUE(std::is_sorted(level_of.begin(), level_of.end()));
+  }
+}
+
 void samples_below(const Terrain& terrain, const RightTriangle& t, int level, int levels,
                    std::vector<Vec3>& out) {
   for (const GridPoint p : {t.apex, t.left, t.right}) out.push_back(terrain.point(p.i, p.j));
@@ -175,7 +198,8 @@ void samples_below(const Terrain& terrain, const RightTriangle& t, int level, in
 TEST(DiamondRadii, HoldEverySampleOfTheDiamond) {
   const Terrain terrain = lattice::rough(17, 17, 3, 40);
   const ClusterGrid grid(terrain, 0, "test");
-  const std::vector<double> radii_m = diamond_radii_m(terrain, grid);
+  const LevelOrder order(grid);
+  const std::vector<double> radii_m = diamond_radii_m(terrain, grid, order);
   constexpr double kRounding = 1e-12;  // relative: a square root of a sum of two squares
   for (const auto& [key, met] : whole(grid).met) {
     const GridPoint node{key.first, key.second};
@@ -183,7 +207,7 @@ TEST(DiamondRadii, HoldEverySampleOfTheDiamond) {
       std::vector<Vec3> samples;
       samples_below(terrain, t, met.level, grid.levels(), samples);
       for (const Vec3 p : samples) {
-        EXPECT_LE(length(p - terrain.point(node.i, node.j)), radii_m[grid.index(node)] * (1 + kRounding));
+        EXPECT_LE(length(p - terrain.point(node.i, node.j)), radii_m[order.index(node)] * (1 + kRounding));
       }
     }
   }
