@@ -10,6 +10,7 @@
 #include "oracle/vertical_overlay.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace plumbline::oracle::detail {
 
@@ -19,8 +20,6 @@ struct Overlay::Edge {
   double by_x = 0, by_y = 0, constant = 0;
   double noise = 0;        ///< below this a distance counts as zero: a bound on its rounding error
   double column_step = 0;  ///< −1/by_x, 0 for an edge along a row
-
-  [[nodiscard]] double at(double x, double y) const { return by_x * x + (by_y * y + constant); }
 };
 
 /// The mesh triangle's plane: height over `base_m` at columns and rows from the origin.
@@ -34,21 +33,33 @@ struct Overlay::Row {
   bool meets = false;                  ///< the row's line meets the triangle
   int first = 1, last = 0;             ///< samples inside; none if first > last
   int first_cell = 0, last_cell = -1;  ///< cells that the row's line crosses inside the triangle
+  std::array<double, 3> base{};        ///< distance to each edge at column 0
+  RowErrors errors;
 };
 
 /// Two neighbouring rows of one triangle.
 struct Overlay::Strip {
   const GridTriangle& triangle;
   const std::array<Edge, 3>& edges;
+  unsigned west_edges, east_edges;  ///< bit k: edge k faces west, east
   const Row& south;
   const Row& north;
   int origin_x, origin_y;
-  int first_cell, last_cell;   ///< cells between the rows that the triangle may touch
-  const double* south_errors;  ///< by column from the origin
-  const double* north_errors;
+  int first_cell, last_cell;  ///< cells between the rows that the triangle may touch
 };
 
 namespace {
+
+/// A half's corners in cells from its cell's south-west corner, counter-clockwise.
+struct HalfCorners {
+  std::array<int, 3> x, y;
+};
+constexpr std::array<HalfCorners, 2> kCorners{{{{0, 1, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 1}}}};
+
+/// A corner's cells: west … east along its row, and the rows of cells that it belongs to.
+struct CornerCells {
+  int west, east, south, north;
+};
 
 /// ⌊x⌋ as an int. Requires: |x| < 2³¹.
 int floor_int(double x) {
@@ -100,12 +111,13 @@ Overlay::Plane Overlay::fit_plane(const GridTriangle& local) {
 void Overlay::cross_row(Row& row, const std::array<Edge, 3>& edges, int last_column) {
   row.first = row.first_cell = 0;
   row.last = row.last_cell = last_column;
-  for (const Edge& edge : edges) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Edge& edge = edges[k];
     if (edge.by_x == 0) continue;
-    const double base = edge.by_y * row.y + edge.constant;
-    const auto distance = [&](int x) { return edge.by_x * x + base; };
+    const auto distance = [&](int x) { return edge.by_x * x + row.base[k]; };
     // The division only proposes; which sample is the first inside is decided by the distances themselves.
-    int x = static_cast<int>(std::clamp(base * edge.column_step, 0.0, static_cast<double>(last_column)));
+    const double guess = row.base[k] * edge.column_step;
+    int x = guess > 0 ? (guess < last_column ? static_cast<int>(guess) : last_column) : 0;
     if (edge.by_x > 0) {
       while (x > 0 && distance(x - 1) >= -edge.noise) --x;
       while (x <= last_column && distance(x) < -edge.noise) ++x;
@@ -121,11 +133,7 @@ void Overlay::cross_row(Row& row, const std::array<Edge, 3>& edges, int last_col
 }
 
 Overlay::Overlay(const Terrain& terrain)
-    : terrain_(terrain),
-      columns_(terrain.columns),
-      rows_(terrain.rows),
-      south_errors_(static_cast<std::size_t>(terrain.columns)),
-      north_errors_(static_cast<std::size_t>(terrain.columns)) {}
+    : terrain_(terrain), columns_(terrain.columns), rows_(terrain.rows) {}
 
 void Overlay::judge(const GridTriangle& given) {
   const auto [west, east] = std::minmax({given[0].x, given[1].x, given[2].x});
@@ -189,45 +197,17 @@ bool Overlay::judge_one_cell(const GridTriangle& triangle) {
   return true;
 }
 
-/// Errors at the row's samples first … last, and the peak among those inside the triangle.
-void Overlay::errors_of_row(const Plane& plane, int origin_x, int origin_y, const Row& row, int first,
-                            int last, double* errors) {
-  const double* const heights = terrain_.heights_m.data() + terrain_.index(origin_x, origin_y + row.y);
-  const double row_height = plane.by_y * row.y + plane.constant;
-  for (int x = first; x <= last; ++x) errors[x] = (plane.by_x * x + row_height) - (heights[x] - plane.base_m);
-
-  const int inside_first = std::max(first, row.first);
-  const int inside_last = std::min(last, row.last);
-  if (!row.meets || inside_first > inside_last) return;
-  std::array<double, 4> lanes{};
-  int x = inside_first;
-  for (; x + 3 <= inside_last; x += 4) {
-    for (int lane = 0; lane < 4; ++lane) {
-      const double size = std::fabs(errors[x + lane]);
-      double& most = lanes[static_cast<std::size_t>(lane)];
-      most = most < size ? size : most;
-    }
-  }
-  for (; x <= inside_last; ++x) lanes[0] = std::max(lanes[0], std::fabs(errors[x]));
-  const double most = std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3]));
-  const double at_y = origin_y + row.y;
-  if (!certain_peak_.admits(most, origin_x + inside_first, at_y) &&
-      !peak_.admits(most, origin_x + inside_first, at_y)) {
-    return;
-  }
-  x = inside_first;
-  while (std::fabs(errors[x]) < most) ++x;
-  visit_everywhere(most, origin_x + x, at_y);
-}
-
 void Overlay::judge_rows(const GridTriangle& triangle) {
-  const auto [west, east] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-  const double south_end = std::min({triangle[0].y, triangle[1].y, triangle[2].y});
-  const double north_end = std::max({triangle[0].y, triangle[1].y, triangle[2].y});
+  const double west = std::min({triangle[0].x, triangle[1].x, triangle[2].x});
+  const double east = std::max({triangle[0].x, triangle[1].x, triangle[2].x});
+  const double south_end = triangle[0].y;  // judge() starts at the southmost corner
+  const double north_end = std::max(triangle[1].y, triangle[2].y);
   const int origin_x = std::max(floor_int(west), 0);
   const int origin_y = std::max(floor_int(south_end), 0);
   const int last_column = std::min(ceil_int(east), columns_ - 1) - origin_x;
   const int last_row = std::min(ceil_int(north_end), rows_ - 1) - origin_y;
+  const int first_met = ceil_int(south_end) - origin_y;
+  const int last_met = floor_int(north_end) - origin_y;
 
   GridTriangle local = triangle;
   for (GridPoint& p : local) {
@@ -235,105 +215,116 @@ void Overlay::judge_rows(const GridTriangle& triangle) {
     p.y -= origin_y;
   }
   std::array<Edge, 3> edges;
-  for (std::size_t k = 0; k < 3; ++k) edges[k] = make_edge(local[k], local[(k + 1) % 3]);
+  std::array<CornerCells, 3> corner_cells;
+  unsigned west_edges = 0, east_edges = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    edges[k] = make_edge(local[k], local[(k + 1) % 3]);
+    if (edges[k].by_x > 0) west_edges |= 1u << k;
+    if (edges[k].by_x < 0) east_edges |= 1u << k;
+    const GridPoint& p = local[k];
+    corner_cells[k] = {floor_int(p.x), ceil_int(p.x) - 1, ceil_int(p.y) - 1, floor_int(p.y)};
+  }
   const Plane plane = fit_plane(local);
 
-  const auto locate = [&](int y) {
-    Row row;
+  const auto locate = [&](Row& row, int y) {
     row.y = y;
-    row.meets = y >= south_end - origin_y && y <= north_end - origin_y;
+    row.errors = {terrain_.heights_m.data() + terrain_.index(origin_x, origin_y + y), plane.base_m,
+                  plane.by_x, plane.by_y * y + plane.constant};
+    for (std::size_t k = 0; k < 3; ++k) row.base[k] = edges[k].by_y * y + edges[k].constant;
+    row.meets = first_met <= y && y <= last_met;
     if (row.meets) cross_row(row, edges, last_column);
-    return row;
   };
-  // The cells that the triangle meets between two rows: from its cross-sections there and its corners in
-  // between.
-  const auto bound_cells = [&](const Row& south, const Row& north, int& first, int& last) {
-    first = last_column;
-    last = -1;
-    for (const Row* row : {&south, &north}) {
+  std::array<Row, 2> rows;
+  locate(rows[0], 0);
+  for (int y = 0; y < last_row; ++y) {
+    const Row& south = rows[static_cast<std::size_t>(y % 2)];
+    Row& north = rows[static_cast<std::size_t>((y + 1) % 2)];
+    locate(north, y + 1);
+    // The cells that the triangle meets between two rows: from its cross-sections there and its corners in
+    // between.
+    int first = last_column, last = -1;
+    for (const Row* row : {&south, &std::as_const(north)}) {
       if (!row->meets) continue;
       first = std::min(first, row->first_cell);
       last = std::max(last, row->last_cell);
     }
-    for (const GridPoint& p : local) {
-      if (p.y < south.y || p.y > north.y) continue;
-      first = std::min(first, floor_int(p.x));
-      last = std::max(last, ceil_int(p.x) - 1);
+    for (const CornerCells& corner : corner_cells) {
+      if (y < corner.south || y > corner.north) continue;
+      first = std::min(first, corner.west);
+      last = std::max(last, corner.east);
     }
-    first = std::max(first, 0);
-    last = std::min(last, last_column - 1);
-  };
-
-  Row south = locate(0);
-  Row north = locate(1);
-  int first = 0, last = -1, next_first = 0, next_last = -1;
-  bound_cells(south, north, first, last);
-  errors_of_row(plane, origin_x, origin_y, south, first, last + 1, south_errors_.data());
-  for (int y = 0; y < last_row; ++y) {
-    Row beyond;
-    int row_first = first, row_last = last;
-    if (y + 1 < last_row) {
-      beyond = locate(y + 2);
-      bound_cells(north, beyond, next_first, next_last);
-      row_first = std::min(first, next_first);
-      row_last = std::max(last, next_last);
-    }
-    errors_of_row(plane, origin_x, origin_y, north, row_first, row_last + 1, north_errors_.data());
-    judge_strip({triangle, edges, south, north, origin_x, origin_y, first, last, south_errors_.data(),
-                 north_errors_.data()});
-    std::swap(south_errors_, north_errors_);
-    south = north;
-    north = beyond;
-    first = next_first;
-    last = next_last;
+    judge_strip({triangle, edges, west_edges, east_edges, south, north, origin_x, origin_y,
+                 std::max(first, 0), std::min(last, last_column - 1)});
   }
 }
 
 void Overlay::judge_strip(const Strip& strip) {
   const Row& south = strip.south;
   const Row& north = strip.north;
-  const bool crossed = south.meets && north.meets;
   // Halves with all three samples inside the triangle.
+  const bool crossed = south.meets && north.meets;
   const int southeast_first = std::max(south.first, north.first - 1);
   const int southeast_last = crossed ? std::min(south.last, north.last) - 1 : southeast_first - 1;
   const int northwest_first = std::max(south.first, north.first);
   const int northwest_last = crossed ? std::min(south.last, north.last - 1) : northwest_first - 1;
-  const double* const s = strip.south_errors;
-  const double* const n = strip.north_errors;
-  const auto add_southeast = [&](int x) { sums_.add_triangle(s[x], s[x + 1], n[x + 1], 1); };
-  const auto add_northwest = [&](int x) { sums_.add_triangle(s[x], n[x + 1], n[x], 1); };
 
-  const int cell_first = std::max(southeast_first, northwest_first);
+  // They overlap but for their ends, so first whole cells, then the ends.
+  const int cell_first = northwest_first;
   const int cell_last = std::min(southeast_last, northwest_last);
   if (cell_first <= cell_last) {
-    sums_.add_cells(s + cell_first, n + cell_first, cell_last - cell_first + 1);
-    for (int x = southeast_first; x < cell_first; ++x) add_southeast(x);
-    for (int x = northwest_first; x < cell_first; ++x) add_northwest(x);
-    for (int x = cell_last + 1; x <= southeast_last; ++x) add_southeast(x);
-    for (int x = cell_last + 1; x <= northwest_last; ++x) add_northwest(x);
-  } else {
-    for (int x = southeast_first; x <= southeast_last; ++x) add_southeast(x);
-    for (int x = northwest_first; x <= northwest_last; ++x) add_northwest(x);
+    const double most = sums_.add_cells(south.errors, north.errors, cell_first, cell_last - cell_first + 1);
+    if (most >= certain_peak_.value) visit_cells(strip, cell_first, cell_last, most);
   }
-
-  // West of a whole half, an edge that faces east has all samples inside: only edges that face west can cut.
   const auto judge_rest = [&](Half half, int whole_first, int whole_last) {
-    if (whole_first > whole_last) return judge_halves(strip, half, strip.first_cell, strip.last_cell, 0b111);
-    unsigned west_edges = 0, east_edges = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-      if (strip.edges[k].by_x > 0) west_edges |= 1u << k;
-      if (strip.edges[k].by_x < 0) east_edges |= 1u << k;
+    if (whole_first > whole_last) {
+      return judge_halves(strip, half, strip.first_cell, strip.last_cell, 0b111);
     }
-    judge_halves(strip, half, strip.first_cell, whole_first - 1, west_edges);
-    judge_halves(strip, half, whole_last + 1, strip.last_cell, east_edges);
+    // West of a whole half, an edge that faces east has all samples inside: only edges that face west can
+    // cut.
+    judge_halves(strip, half, strip.first_cell, whole_first - 1, strip.west_edges);
+    if (cell_first <= cell_last) {
+      for (int x = whole_first; x < cell_first; ++x) add_half(strip, half, x);
+      for (int x = cell_last + 1; x <= whole_last; ++x) add_half(strip, half, x);
+    } else {
+      for (int x = whole_first; x <= whole_last; ++x) add_half(strip, half, x);
+    }
+    judge_halves(strip, half, whole_last + 1, strip.last_cell, strip.east_edges);
   };
   judge_rest(Half::southeast, southeast_first, southeast_last);
   judge_rest(Half::northwest, northwest_first, northwest_last);
 }
 
+/// Finds where among whole cells the greatest error stands.
+void Overlay::visit_cells(const Strip& strip, int first, int last, double most) {
+  for (const Row* row : {&strip.south, &strip.north}) {
+    if (!certain_peak_.admits(most, strip.origin_x + first, strip.origin_y + row->y) &&
+        !peak_.admits(most, strip.origin_x + first, strip.origin_y + row->y)) {
+      continue;
+    }
+    for (int x = first; x <= last + 1; ++x) {
+      if (std::fabs(row->errors.at(x)) == most) {
+        visit_everywhere(most, strip.origin_x + x, strip.origin_y + row->y);
+        break;
+      }
+    }
+  }
+}
+
+/// A half cell that lies wholly inside the triangle.
+void Overlay::add_half(const Strip& strip, Half half, int x) {
+  const HalfCorners& corner = kCorners[half == Half::southeast ? 0 : 1];
+  std::array<double, 3> error{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Row& row = corner.y[k] == 0 ? strip.south : strip.north;
+    error[k] = row.errors.at(x + corner.x[k]);
+    visit_everywhere(error[k], strip.origin_x + x + corner.x[k], strip.origin_y + row.y);
+  }
+  sums_.add_triangle(error[0], error[1], error[2], 1);
+}
+
 /// Halves that some edge of the mask may cut.
 void Overlay::judge_halves(const Strip& strip, Half half, int first, int last, unsigned edge_mask) {
-  const bool southeast = half == Half::southeast;
+  const HalfCorners& corner = kCorners[half == Half::southeast ? 0 : 1];
   for (int x = first; x <= last; ++x) {
     std::array<double, 3> cutting{};
     int cuts = 0;
@@ -341,52 +332,51 @@ void Overlay::judge_halves(const Strip& strip, Half half, int first, int last, u
     for (unsigned k = 0; k < 3; ++k) {
       if ((edge_mask >> k & 1u) == 0) continue;
       const Edge& edge = strip.edges[k];
-      const double south_base = edge.by_y * strip.south.y + edge.constant;
-      const double north_base = edge.by_y * strip.north.y + edge.constant;
-      const auto snapped = [&](double distance) {
-        return std::fabs(distance) <= edge.noise ? 0.0 : distance;
-      };
-      const std::array<double, 3> distance{
-          snapped(edge.by_x * x + south_base),
-          southeast ? snapped(edge.by_x * (x + 1) + south_base) : snapped(edge.by_x * (x + 1) + north_base),
-          southeast ? snapped(edge.by_x * (x + 1) + north_base) : snapped(edge.by_x * x + north_base)};
-      if (distance[0] <= 0 && distance[1] <= 0 && distance[2] <= 0) {
-        outside = true;
-        break;
+      std::array<double, 3> distance{};
+      bool some_inside = false, some_outside = false;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Row& row = corner.y[c] == 0 ? strip.south : strip.north;
+        const double d = edge.by_x * (x + corner.x[c]) + row.base[k];
+        distance[c] = std::fabs(d) <= edge.noise ? 0.0 : d;
+        some_inside |= distance[c] > 0;
+        some_outside |= distance[c] < 0;
       }
-      if (distance[0] < 0 || distance[1] < 0 || distance[2] < 0) {
+      outside |= !some_inside;  // its closure belongs to other halves: it has no area here
+      if (some_outside) {
         cutting = distance;
         ++cuts;
       }
     }
     if (outside) continue;
-    if (cuts == 1) {
+    if (cuts == 0) {
+      add_half(strip, half, x);
+    } else if (cuts == 1) {
       cut_by_one(strip, half, x, cutting);
-    } else if (cuts > 1) {
-      clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
-    } else if (southeast) {
-      sums_.add_triangle(strip.south_errors[x], strip.south_errors[x + 1], strip.north_errors[x + 1], 1);
     } else {
-      sums_.add_triangle(strip.south_errors[x], strip.north_errors[x + 1], strip.north_errors[x], 1);
+      clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
     }
   }
 }
 
-/// A half cell cut by one line, which leaves corners on both sides. With d the corners' distances to the
-/// line, it crosses the side from p to q at the share d_p/(d_p − d_q), and the error there follows, being
-/// linear over the half.
+/// A half cell cut by one line, with corners on both sides. With d the corners' distances to the line, it
+/// crosses the side from p to q at the share d_p/(d_p − d_q), and the error there follows, being linear over
+/// the half.
 void Overlay::cut_by_one(const Strip& strip, Half half, int x, const std::array<double, 3>& distance) {
-  const bool southeast = half == Half::southeast;
-  const double* const s = strip.south_errors;
-  const double* const n = strip.north_errors;
-  const std::array<double, 3> error{s[x], southeast ? s[x + 1] : n[x + 1], southeast ? n[x + 1] : n[x]};
+  const HalfCorners& corner = kCorners[half == Half::southeast ? 0 : 1];
+  std::array<double, 3> error{};
+  int inside = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Row& row = corner.y[k] == 0 ? strip.south : strip.north;
+    error[k] = row.errors.at(x + corner.x[k]);
+    if (distance[k] >= 0)
+      visit_everywhere(error[k], strip.origin_x + x + corner.x[k], strip.origin_y + row.y);
+    inside += distance[k] > 0 ? 1 : 0;
+  }
 
-  // `apex` stands alone on its side of the line; p and q follow it counter-clockwise.
-  const int inside = (distance[0] > 0 ? 1 : 0) + (distance[1] > 0 ? 1 : 0) + (distance[2] > 0 ? 1 : 0);
+  // `apex` stands alone strictly on its side of the line; p and q follow it counter-clockwise.
   const bool apex_inside = inside == 1;
   std::size_t apex = 0;
-  while (apex_inside ? !(distance[apex] > 0) : !(distance[apex] < 0)) ++apex;
-  if (!apex_inside && inside == 1) return;
+  while (apex_inside ? distance[apex] <= 0 : distance[apex] >= 0) ++apex;
   const std::size_t p = (apex + 1) % 3;
   const std::size_t q = (apex + 2) % 3;
   const double to_p = distance[apex] / (distance[apex] - distance[p]);
@@ -401,17 +391,16 @@ void Overlay::cut_by_one(const Strip& strip, Half half, int x, const std::array<
   }
 
   const auto visit = [&](double crossing_error, std::size_t to, double share) {
-    const double size = std::fabs(crossing_error);
-    if (size < certain_peak_.value) return;
-    // Corner numbers: 0 south-west; south-east half: 1 south-east, 2 north-east; else 1 north-east, 2
-    // north-west.
-    const auto corner_x = [&](std::size_t k) { return k == 1 || (southeast && k == 2) ? 1.0 : 0.0; };
-    const auto corner_y = [&](std::size_t k) { return k == 2 || (!southeast && k == 1) ? 1.0 : 0.0; };
-    const double at_x = strip.origin_x + (x + (corner_x(apex) + share * (corner_x(to) - corner_x(apex))));
-    const double at_y =
-        strip.origin_y + (strip.south.y + (corner_y(apex) + share * (corner_y(to) - corner_y(apex))));
-    const bool on_diagonal = corner_x(apex) != corner_x(to) && corner_y(apex) != corner_y(to);
-    on_diagonal ? visit_declared(crossing_error, at_x, at_y) : visit_everywhere(crossing_error, at_x, at_y);
+    if (std::fabs(crossing_error) < certain_peak_.value) return;
+    const int along_x = corner.x[to] - corner.x[apex];
+    const int along_y = corner.y[to] - corner.y[apex];
+    const double at_x = strip.origin_x + (x + (corner.x[apex] + share * along_x));
+    const double at_y = strip.origin_y + (strip.south.y + (corner.y[apex] + share * along_y));
+    if (along_x != 0 && along_y != 0) {
+      visit_declared(crossing_error, at_x, at_y);
+    } else {
+      visit_everywhere(crossing_error, at_x, at_y);
+    }
   };
   visit(at_p, p, to_p);
   visit(at_q, q, to_q);

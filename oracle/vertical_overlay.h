@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "oracle/vertical_pieces.h"
 #include "scenarios/terrain.h"
@@ -47,10 +46,10 @@ class Overlay {
   static void cross_row(Row& row, const std::array<Edge, 3>& edges, int last_column);
   bool judge_one_cell(const GridTriangle& triangle);
   void judge_rows(const GridTriangle& triangle);
-  void errors_of_row(const Plane& plane, int origin_x, int origin_y, const Row& row, int first, int last,
-                     double* errors);
   void judge_strip(const Strip& strip);
   void judge_halves(const Strip& strip, Half half, int first, int last, unsigned edge_mask);
+  void add_half(const Strip& strip, Half half, int x);
+  void visit_cells(const Strip& strip, int first, int last, double most);
   void cut_by_one(const Strip& strip, Half half, int x, const std::array<double, 3>& distance);
 
   // vertical_slivers.cpp: what is left: thin triangles, cells cut by two edges, corners between samples.
@@ -71,8 +70,6 @@ class Overlay {
 
   const Terrain& terrain_;
   const int columns_, rows_;
-  std::vector<double> south_errors_,
-      north_errors_;  ///< two rows of samples, by column from a triangle's origin
   PieceSums sums_;
   Peak peak_, certain_peak_;
 };

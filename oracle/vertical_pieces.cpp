@@ -3,79 +3,90 @@
 
 #include "oracle/vertical_pieces.h"
 
-#include <algorithm>
-
 namespace plumbline::oracle::detail {
+
 namespace {
 
-/// Sum in kLanes interleaved lanes, then lane by lane.
-template <std::size_t kLanes>
-double lane_sum(const double* terms, std::size_t count) {
-  std::array<double, kLanes> lanes{};
-  std::size_t k = 0;
-  for (; k + kLanes <= count; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += terms[k + lane];
-  }
-  for (std::size_t lane = 0; k < count; ++k, ++lane) lanes[lane] += terms[k];
-  double sum = 0;
-  for (const double lane : lanes) sum += lane;
-  return sum;
+Pair lesser(Pair a, Pair b) { return a < b ? a : b; }
+Pair greater(Pair a, Pair b) { return a > b ? a : b; }
+
+/// Errors at columns x and x + 1, as RowErrors::at has them.
+Pair errors_at(const RowErrors& row, int x, Pair columns) {
+  return (row.by_x * columns + row.row_height) - (load(row.heights + x) - row.base_m);
 }
 
 }  // namespace
 
-void PieceSums::add_cells(const double* south, const double* north, int count) {
-  whole_cells_ += static_cast<std::size_t>(count);
-  while (count > 0) {
-    const int room = static_cast<int>(kBatch - cell_count_);
-    const int part = std::min(count, room);
-    double* const southwest = cells_.southwest.data() + cell_count_;
-    double* const southeast = cells_.southeast.data() + cell_count_;
-    double* const northeast = cells_.northeast.data() + cell_count_;
-    double* const northwest = cells_.northwest.data() + cell_count_;
-    for (int k = 0; k < part; ++k) {
-      southwest[k] = south[k];
-      southeast[k] = south[k + 1];
-      northeast[k] = north[k + 1];
-      northwest[k] = north[k];
+double PieceSums::add_cells(const RowErrors& south, const RowErrors& north, int first, int count) {
+  Pair squares = cell_squares_;
+  Pair absolutes = cell_absolutes_;
+  Pair lowest{}, highest{};
+  const auto add = [&](Pair a, Pair b, Pair c, Pair d) {
+    const Pair low = lesser(lesser(a, b), lesser(c, d));
+    const Pair high = greater(greater(a, b), greater(c, d));
+    lowest = lesser(lowest, low);
+    highest = greater(highest, high);
+    const Pair diagonal = a + c;
+    const Pair southeast = diagonal + b;
+    const Pair northwest = diagonal + d;
+    squares += (southeast * southeast + northwest * northwest) + ((b * b + d * d) + 2 * (a * a + c * c));
+    // Most cells lie wholly on one side of the mesh: nothing to cut there.
+    const PairMask mixed = (low < 0) & (high > 0);
+    if ((mixed[0] | mixed[1]) == 0) {
+      absolutes += lesser(southeast, -southeast) + lesser(northwest, -northwest);
+    } else {
+      absolutes -= absolute_term(a, b, c) + absolute_term(a, c, d);
     }
-    cell_count_ += static_cast<std::size_t>(part);
-    south += part;
-    north += part;
-    count -= part;
-    if (cell_count_ == kBatch) flush_cells();
+  };
+  int x = first;
+  const int end = first + count;
+  Pair columns{static_cast<double>(x), static_cast<double>(x + 1)};
+  for (; x + 1 < end; x += 2) {
+    const Pair next = columns + 1;
+    add(errors_at(south, x, columns), errors_at(south, x + 1, next), errors_at(north, x + 1, next),
+        errors_at(north, x, columns));
+    columns += 2;
   }
+  if (x < end) {  // one cell is left; the other lane adds nothing
+    add(Pair{south.at(x), 0}, Pair{south.at(x + 1), 0}, Pair{north.at(x + 1), 0}, Pair{north.at(x), 0});
+  }
+  cell_squares_ = squares;
+  cell_absolutes_ = absolutes;
+  whole_cells_ += static_cast<std::size_t>(count);
+  cells_in_lanes_ += count;
+  if (cells_in_lanes_ >= kCellsPerLane) flush_cells();
+  const Pair most = greater(highest, -lowest);
+  return most[0] > most[1] ? most[0] : most[1];
 }
 
 void PieceSums::flush_cells() {
-  Column square, absolute;
-  for (std::size_t k = 0; k < cell_count_; ++k) {
-    const double a = cells_.southwest[k];
-    const double b = cells_.southeast[k];
-    const double c = cells_.northeast[k];
-    const double d = cells_.northwest[k];
-    square[k] = square_term(a, b, c) + square_term(a, c, d);
-    absolute[k] = absolute_term(a, b, c) + absolute_term(a, c, d);
+  for (const std::size_t lane : {0, 1}) {
+    square_.add(0.5 * cell_squares_[lane]);
+    absolute_.add(-cell_absolutes_[lane]);
   }
-  square_.add(lane_sum<kLanes>(square.data(), cell_count_));
-  absolute_.add(lane_sum<kLanes>(absolute.data(), cell_count_));
-  cell_count_ = 0;
+  cell_squares_ = Pair{};
+  cell_absolutes_ = Pair{};
+  cells_in_lanes_ = 0;
 }
 
 void PieceSums::flush_triangles() {
-  Column square, absolute;
-  for (std::size_t k = 0; k < triangle_count_; ++k) {
-    const double a = triangles_.a[k];
-    const double b = triangles_.b[k];
-    const double c = triangles_.c[k];
-    const double weight = triangles_.twice_area[k];
-    square[k] = weight * square_term(a, b, c);
-    absolute[k] = weight * absolute_term(a, b, c);
+  if (waiting_ % 2 != 0) a_[waiting_] = b_[waiting_] = c_[waiting_] = twice_area_[waiting_] = 0;
+  Pair squares{}, absolutes{}, areas{};
+  for (std::size_t k = 0; k < waiting_; k += 2) {
+    const Pair a = load(&a_[k]);
+    const Pair b = load(&b_[k]);
+    const Pair c = load(&c_[k]);
+    const Pair weight = load(&twice_area_[k]);
+    squares += weight * square_term(a, b, c);
+    absolutes += weight * absolute_term(a, b, c);
+    areas += weight;
   }
-  square_.add(lane_sum<kLanes>(square.data(), triangle_count_));
-  absolute_.add(lane_sum<kLanes>(absolute.data(), triangle_count_));
-  twice_area_.add(lane_sum<kLanes>(triangles_.twice_area.data(), triangle_count_));
-  triangle_count_ = 0;
+  for (const std::size_t lane : {0, 1}) {
+    square_.add(squares[lane]);
+    absolute_.add(absolutes[lane]);
+    twice_area_sum_.add(areas[lane]);
+  }
+  waiting_ = 0;
 }
 
 void PieceSums::finish() {

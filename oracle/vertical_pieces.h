@@ -7,33 +7,46 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 namespace plumbline::oracle::detail {
 
+/// Two doubles side by side: one SSE2 register, which every x86-64 has. Lane by lane the operations are those
+/// of IEEE 754, so the bits do not depend on the compiler or on the machine.
+using Pair = double __attribute__((vector_size(16)));
+using PairMask = decltype(Pair{} < Pair{});
+
+inline Pair load(const double* two) {
+  Pair pair;
+  std::memcpy(&pair, two, sizeof pair);
+  return pair;
+}
+
 /// 12/(2A) · ∫e² over a triangle of area A on which e is linear with corner values a, b, c.
-inline double square_term(double a, double b, double c) {
-  const double sum = a + b + c;
+inline Pair square_term(Pair a, Pair b, Pair c) {
+  const Pair sum = a + b + c;
   return 0.5 * (sum * sum + (a * a + b * b + c * c));
 }
 
 /// 6/(2A) · ∫|e| over the same triangle. If one corner's sign differs from the other two, the line e = 0 cuts
 /// off a similar cap at that corner m with area share m/(m−p) · m/(m−q), whose integral changes sign: |a + b
-/// + c − 2m · m/(m−p) · m/(m−q)|. Without branches, so that a loop over it can use vector registers; written
-/// with ratios in [0, 1], so that nothing over- or underflows.
-inline double absolute_term(double a, double b, double c) {
-  const double ab_low = a < b ? a : b;
-  const double ab_high = a < b ? b : a;
-  const double low = ab_low < c ? ab_low : c;
-  const double high = ab_high < c ? c : ab_high;
-  const double rest = ab_high < c ? ab_high : c;
-  const double middle = ab_low < rest ? rest : ab_low;
-  const double low_cap = low < 0 ? low : 0.0;
-  const double high_cap = high > 0 ? high : 0.0;
-  const double cap = middle < 0 ? high_cap : low_cap;  // 0: no change of sign
-  const double other = middle < 0 ? low : high;
-  const double to_middle = cap == 0 ? 1.0 : cap - middle;
-  const double to_other = cap == 0 ? 1.0 : cap - other;
-  return std::fabs((a + b + c) - 2 * cap * (cap / to_middle) * (cap / to_other));
+/// + c − 2m · m²/((m−p)(m−q))|. Without branches, and no lane ever divides by zero.
+inline Pair absolute_term(Pair a, Pair b, Pair c) {
+  const Pair ab_low = a < b ? a : b;
+  const Pair ab_high = a < b ? b : a;
+  const Pair low = ab_low < c ? ab_low : c;
+  const Pair high = ab_high < c ? c : ab_high;
+  const Pair rest = ab_high < c ? ab_high : c;
+  const Pair middle = ab_low < rest ? rest : ab_low;
+  const Pair zero{};
+  const Pair low_cap = low < zero ? low : zero;
+  const Pair high_cap = high > zero ? high : zero;
+  const Pair cap = middle < zero ? high_cap : low_cap;  // 0: no change of sign
+  const Pair other = middle < zero ? low : high;
+  const Pair gaps = (cap - middle) * (cap - other);
+  const Pair divisor = gaps == zero ? zero + 1 : gaps;
+  const Pair integral = (a + b + c) - 2 * cap * (cap * cap / divisor);
+  return integral < zero ? -integral : integral;
 }
 
 /// Neumaier's compensated sum: the order of the terms matters only beyond the last bit or so.
@@ -50,46 +63,53 @@ class CompensatedSum {
   double sum_ = 0, carry_ = 0;
 };
 
-/// Sums of ∫e² and ∫|e|, and the area. Lengths in plan are in cells. Pieces are gathered in batches and
-/// summed in four lanes written out in the source, so that every compiler makes the same bits of it, with
-/// vector registers or without.
+/// A mesh triangle's plane over one row of samples: height − base_m = by_x · x + row_height.
+/// Errors are differences of heights over base_m, so that they keep their digits far above sea level.
+struct RowErrors {
+  const double* heights = nullptr;
+  double base_m = 0, by_x = 0, row_height = 0;
+
+  [[nodiscard]] double at(int x) const { return (by_x * x + row_height) - (heights[x] - base_m); }
+};
+
+/// Sums of ∫e² and ∫|e|, and the area. Lengths in plan are in cells. The order of summation is written out
+/// here: two lanes, and into compensated sums every few thousand terms.
 class PieceSums {
  public:
-  /// A row of `count` whole cells; `south` and `north` hold count + 1 errors at the samples.
-  void add_cells(const double* south, const double* north, int count);
+  /// Whole cells x … x + count − 1 between two rows of one plane. Returns the greatest |e| among their
+  /// samples.
+  double add_cells(const RowErrors& south, const RowErrors& north, int x, int count);
   /// A triangle with errors a, b, c at its corners.
   void add_triangle(double a, double b, double c, double twice_area) {
-    triangles_.a[triangle_count_] = a;
-    triangles_.b[triangle_count_] = b;
-    triangles_.c[triangle_count_] = c;
-    triangles_.twice_area[triangle_count_] = twice_area;
-    if (++triangle_count_ == kBatch) flush_triangles();
+    a_[waiting_] = a;
+    b_[waiting_] = b;
+    c_[waiting_] = c;
+    twice_area_[waiting_] = twice_area;
+    if (++waiting_ == kBatch) flush_triangles();
   }
-  /// Sums what is still in the batches. To be called once, before the figures are read.
+  /// Sums what is still waiting. To be called once, before the figures are read.
   void finish();
 
-  [[nodiscard]] double area() const { return 0.5 * twice_area_.value() + static_cast<double>(whole_cells_); }
+  [[nodiscard]] double area() const {
+    return 0.5 * twice_area_sum_.value() + static_cast<double>(whole_cells_);
+  }
   [[nodiscard]] double square_integral() const { return square_.value() / 12; }
   [[nodiscard]] double absolute_integral() const { return absolute_.value() / 6; }
 
  private:
-  static constexpr std::size_t kBatch = 256;
-  static constexpr std::size_t kLanes = 4;
-  using Column = std::array<double, kBatch>;
+  static constexpr std::size_t kBatch = 256;  ///< even, so that pairs fill it
+  static constexpr int kCellsPerLane = 4096;  ///< plain sums of this length lose at most 2⁻⁴¹ of themselves
 
   void flush_cells();
   void flush_triangles();
 
-  struct {
-    Column southwest, southeast, northeast, northwest;
-  } cells_;
-  struct {
-    Column a, b, c, twice_area;
-  } triangles_;
-  std::size_t cell_count_ = 0;
-  std::size_t triangle_count_ = 0;
+  alignas(16) std::array<double, kBatch> a_, b_, c_, twice_area_;
+  std::size_t waiting_ = 0;
   std::size_t whole_cells_ = 0;
-  CompensatedSum square_, absolute_, twice_area_;
+  Pair cell_squares_{};    ///< twice the sum
+  Pair cell_absolutes_{};  ///< with a minus sign: that saves an instruction a cell
+  int cells_in_lanes_ = 0;
+  CompensatedSum square_, absolute_, twice_area_sum_;
 };
 
 /// A running maximum with its place in cells; among equals the lowest y, then x.
