@@ -7,9 +7,6 @@ namespace plumbline::oracle::detail {
 
 namespace {
 
-Pair lesser(Pair a, Pair b) { return a < b ? a : b; }
-Pair greater(Pair a, Pair b) { return a > b ? a : b; }
-
 /// Errors at columns x and x + 1, as RowErrors::at has them.
 Pair errors_at(const RowErrors& row, int x, Pair columns) {
   return (row.by_x * columns + row.row_height) - (load(row.heights + x) - row.base_m);
@@ -30,13 +27,7 @@ double PieceSums::add_cells(const RowErrors& south, const RowErrors& north, int 
     const Pair southeast = diagonal + b;
     const Pair northwest = diagonal + d;
     squares += (southeast * southeast + northwest * northwest) + ((b * b + d * d) + 2 * (a * a + c * c));
-    // Most cells lie wholly on one side of the mesh: nothing to cut there.
-    const PairMask mixed = (low < 0) & (high > 0);
-    if ((mixed[0] | mixed[1]) == 0) {
-      absolutes += lesser(southeast, -southeast) + lesser(northwest, -northwest);
-    } else {
-      absolutes -= absolute_term(a, b, c) + absolute_term(a, c, d);
-    }
+    absolutes += absolute_term(a, b, c, southeast) + absolute_term(a, c, d, northwest);
   };
   int x = first;
   const int end = first + count;
@@ -62,7 +53,7 @@ double PieceSums::add_cells(const RowErrors& south, const RowErrors& north, int 
 void PieceSums::flush_cells() {
   for (const std::size_t lane : {0, 1}) {
     square_.add(0.5 * cell_squares_[lane]);
-    absolute_.add(-cell_absolutes_[lane]);
+    absolute_.add(cell_absolutes_[lane]);
   }
   cell_squares_ = Pair{};
   cell_absolutes_ = Pair{};
@@ -78,7 +69,7 @@ void PieceSums::flush_triangles() {
     const Pair c = load(&c_[k]);
     const Pair weight = load(&twice_area_[k]);
     squares += weight * square_term(a, b, c);
-    absolutes += weight * absolute_term(a, b, c);
+    absolutes += weight * absolute_term(a, b, c, a + b + c);
     areas += weight;
   }
   for (const std::size_t lane : {0, 1}) {

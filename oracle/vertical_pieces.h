@@ -14,7 +14,6 @@ namespace plumbline::oracle::detail {
 /// Two doubles side by side: one SSE2 register, which every x86-64 has. Lane by lane the operations are those
 /// of IEEE 754, so the bits do not depend on the compiler or on the machine.
 using Pair = double __attribute__((vector_size(16)));
-using PairMask = decltype(Pair{} < Pair{});
 
 inline Pair load(const double* two) {
   Pair pair;
@@ -28,25 +27,25 @@ inline Pair square_term(Pair a, Pair b, Pair c) {
   return 0.5 * (sum * sum + (a * a + b * b + c * c));
 }
 
-/// 6/(2A) · ∫|e| over the same triangle. If one corner's sign differs from the other two, the line e = 0 cuts
-/// off a similar cap at that corner m with area share m/(m−p) · m/(m−q), whose integral changes sign: |a + b
-/// + c − 2m · m²/((m−p)(m−q))|. Without branches, and no lane ever divides by zero.
-inline Pair absolute_term(Pair a, Pair b, Pair c) {
-  const Pair ab_low = a < b ? a : b;
-  const Pair ab_high = a < b ? b : a;
-  const Pair low = ab_low < c ? ab_low : c;
-  const Pair high = ab_high < c ? c : ab_high;
-  const Pair rest = ab_high < c ? ab_high : c;
-  const Pair middle = ab_low < rest ? rest : ab_low;
+inline Pair lesser(Pair a, Pair b) { return a < b ? a : b; }
+inline Pair greater(Pair a, Pair b) { return a > b ? a : b; }
+
+/// 6/(2A) · ∫|e| over the same triangle; `sum` = a + b + c. Turn signs so that the middle value is not negative. If the
+/// lowest, m, then is, the line e = 0 cuts off a similar cap at that corner with area share m/(m−p) · m/(m−q), whose
+/// integral changes sign: sum − 2m · m²/((m−p)(m−q)). Without branches: signs change in a third of all cells, at random.
+inline Pair absolute_term(Pair a, Pair b, Pair c, Pair sum) {
+  constexpr double kNeverZero = 0x1p-1000;  // for m = 0; m² does not exceed the divisor otherwise
+  const Pair ab_low = lesser(a, b);
+  const Pair ab_high = greater(a, b);
+  const Pair low = lesser(ab_low, c);
+  const Pair high = greater(ab_high, c);
+  const Pair middle = greater(ab_low, lesser(ab_high, c));
   const Pair zero{};
-  const Pair low_cap = low < zero ? low : zero;
-  const Pair high_cap = high > zero ? high : zero;
-  const Pair cap = middle < zero ? high_cap : low_cap;  // 0: no change of sign
-  const Pair other = middle < zero ? low : high;
-  const Pair gaps = (cap - middle) * (cap - other);
-  const Pair divisor = gaps == zero ? zero + 1 : gaps;
-  const Pair integral = (a + b + c) - 2 * cap * (cap * cap / divisor);
-  return integral < zero ? -integral : integral;
+  const auto turned = middle < zero;
+  const Pair cap = lesser(turned ? -high : low, zero);
+  const Pair total = turned ? -sum : sum;
+  const Pair divisor = greater((greater(middle, -middle) - cap) * (high - low), zero + kNeverZero);
+  return total - 2 * cap * (cap * cap / divisor);
 }
 
 /// Neumaier's compensated sum: the order of the terms matters only beyond the last bit or so.
@@ -106,8 +105,8 @@ class PieceSums {
   alignas(16) std::array<double, kBatch> a_, b_, c_, twice_area_;
   std::size_t waiting_ = 0;
   std::size_t whole_cells_ = 0;
-  Pair cell_squares_{};    ///< twice the sum
-  Pair cell_absolutes_{};  ///< with a minus sign: that saves an instruction a cell
+  Pair cell_squares_{};  ///< twice the sum
+  Pair cell_absolutes_{};
   int cells_in_lanes_ = 0;
   CompensatedSum square_, absolute_, twice_area_sum_;
 };
