@@ -35,8 +35,7 @@ struct Canvas {
   }
 };
 
-constexpr double kGain =
-    0.55;  // amplitude from octave to octave: Hurst exponent 0.86, as measured on mountains
+constexpr double kGain = 0.5;         // amplitude from octave to octave: all are equally steep
 constexpr double kCellsAcross = 2.5;  // of the broadest octave
 
 double smooth_step(double t) {

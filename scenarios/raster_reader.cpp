@@ -10,7 +10,10 @@
 #include <mutex>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_minixml.h>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
@@ -95,6 +98,7 @@ struct RasterReader::Impl {
     throw InputError(fmt::format("{}: {}", label, what));
   }
   void read_size();
+  void check_raw_bytes(const std::filesystem::path& file) const;
   void read_transform();
   void read_reference();
   void read_values();
@@ -123,6 +127,36 @@ void RasterReader::Impl::read_size() {
   }
   if (GDALDataTypeIsComplex(band->GetRasterDataType()) != 0)
     refuse("holds complex numbers; give real heights");
+}
+
+// GDAL reads zeros beyond the end of a VRT's raw file, in silence; they are not heights.
+void RasterReader::Impl::check_raw_bytes(const std::filesystem::path& file) const {
+  char** xml = dataset->GetMetadata("xml:VRT");
+  if (xml == nullptr || xml[0] == nullptr) return;
+  const std::unique_ptr<CPLXMLNode, void (*)(CPLXMLNode*)> tree(CPLParseXMLString(xml[0]), CPLDestroyXMLNode);
+  const CPLXMLNode* element = CPLGetXMLNode(tree.get(), "=VRTDataset.VRTRasterBand");
+  if (element == nullptr || !EQUAL(CPLGetXMLValue(element, "subClass", ""), "VRTRawRasterBand")) return;
+  std::string source = CPLGetXMLValue(element, "SourceFilename", "");
+  if (EQUAL(CPLGetXMLValue(element, "SourceFilename.relativeToVRT", "1"), "1")) {
+    source = CPLProjectRelativeFilename(CPLGetPath(file.c_str()), source.c_str());
+  }
+  const std::int64_t sample_bytes = GDALGetDataTypeSizeBytes(band->GetRasterDataType());
+  const auto number = [&](const char* name, std::int64_t fallback) {
+    const char* text = CPLGetXMLValue(element, name, "");
+    return *text == '\0' ? fallback : std::int64_t{CPLAtoGIntBig(text)};
+  };
+  const std::int64_t pixel_bytes = number("PixelOffset", sample_bytes);
+  const std::int64_t line_bytes = number("LineOffset", pixel_bytes * frame.columns);
+  const std::int64_t needed = number("ImageOffset", 0) +
+                              std::max<std::int64_t>(line_bytes, 0) * (frame.rows - 1) +
+                              std::max<std::int64_t>(pixel_bytes, 0) * (frame.columns - 1) + sample_bytes;
+  VSIStatBufL status;
+  if (VSIStatL(source.c_str(), &status) != 0)
+    refuse(fmt::format("cannot find its samples in {}", one_line(source)));
+  const auto present = static_cast<std::int64_t>(status.st_size);
+  if (present < needed) {
+    refuse(fmt::format("{} ends after {} of {} bytes; restore the file", one_line(source), present, needed));
+  }
 }
 
 void RasterReader::Impl::read_transform() {
@@ -221,6 +255,7 @@ RasterReader::RasterReader(const std::string& terrain_id, const std::filesystem:
       GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (impl_->dataset == nullptr) impl_->refuse(fmt::format("cannot be opened: {}", errors.text()));
   impl_->read_size();
+  impl_->check_raw_bytes(file);
   impl_->read_transform();
   impl_->read_reference();
   impl_->read_values();

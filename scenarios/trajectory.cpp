@@ -49,7 +49,7 @@ struct Scene {
 // asks.
 Poses fly_approach(const Scene& scene) {
   const Vec3 target = scene.middle();
-  const double height_m = scene.height_or(0.03);
+  const double height_m = scene.height_or(0.02);
   const double far_m = scene.distance_or(1.5);
   const double near_m = 0.05 * far_m;
   Poses poses;
@@ -89,7 +89,7 @@ Poses fly_orbit(const Scene& scene) {
 
 // Across the terrain from south-west to north-east at constant height over the ground, looking along it.
 Poses fly_skim(const Scene& scene) {
-  const double height_m = scene.height_or(0.015);
+  const double height_m = scene.height_or(0.005);
   const Vec2 from{0.07 * scene.width_m, 0.12 * scene.depth_m};
   const Vec2 to{0.9 * scene.width_m, 0.84 * scene.depth_m};
   const Vec2 way = to - from;

@@ -24,7 +24,7 @@ struct TrajectorySpec {
   std::string id;
   std::string kind;  ///< approach, retreat, orbit, skim, spin, nadir, teleport, hover, poses
   int frames = 0;    ///< absent for `poses`: one frame a pose
-  /// approach, retreat: above the ground at the near end (0.03 L); skim (0.015 L), spin (0.06 L), hover (0.08
+  /// approach, retreat: above the ground at the near end (0.02 L); skim (0.005 L), spin (0.06 L), hover (0.08
   /// L): above the ground below; orbit: above the highest ground on the way (0.2 L); nadir: above the highest
   /// sample (0.4 L).
   double height_m = 0;
