@@ -80,8 +80,8 @@ class Campaign {
       }
       if (seconds_ > 0 && elapsed(began) >= seconds_) break;
       const DrawnCase drawn = draw_case(method_, options_.seed, cases_);
-      const bool accepted = !options_.accept || options_.accept(drawn.input);
-      for (std::size_t k = 0; accepted && k < laws_.size(); ++k) try_law(*laws_[k], drawn.input, tallies_[k]);
+      for (std::size_t k = 0; accepted(drawn.input) && k < laws_.size(); ++k)
+        try_law(*laws_[k], drawn.input, tallies_[k]);
       constexpr double kProgressEachS = 0.2;
       if (options_.progress && elapsed(start_) - last_progress_s >= kProgressEachS) {
         last_progress_s = elapsed(start_);
@@ -92,6 +92,14 @@ class Campaign {
   }
 
  private:
+  [[nodiscard]] bool accepted(const LawInput& input) const {
+    try {
+      return !options_.accept || options_.accept(input);
+    } catch (const InputError&) {
+      return false;  // the filter looked at what the method does not take
+    }
+  }
+
   void try_law(const Law& law, const LawInput& input, LawTally& tally) {
     LawOutcome outcome;
     try {

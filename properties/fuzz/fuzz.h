@@ -30,8 +30,9 @@ struct FuzzOptions {
   double seconds = 0;       ///< stop after this long (each method has an equal share); 0: no limit
   std::uint64_t cases = 0;  ///< stop after so many cases a method; 0: no limit. One of the two must be given.
   std::uint64_t seed = 1;
-  std::filesystem::path out;                          ///< folder for case files; empty: none are written
-  /// Judge only inputs that this accepts, and shrink among them (terrain below a slope, one kind of camera). Empty: all.
+  std::filesystem::path out;  ///< folder for case files; empty: none are written
+  /// Judge only inputs that this accepts, and shrink among them (terrain below a slope, one kind of camera).
+  /// Empty: all.
   std::function<bool(const LawInput&)> accept;
   std::function<void(const FuzzProgress&)> progress;  ///< now and then
   const std::atomic<bool>* cancelled = nullptr;

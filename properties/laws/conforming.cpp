@@ -47,7 +47,7 @@ LawOutcome check(const LawInput& input) {
                             finding.gap_px / input.threshold_px, depth_m);
       }
     }
-    what += fmt::format("; {} findings in {} triangles", report.counts.total(), frame.mesh.triangles.size());
+    what += fmt::format("; {} findings in {} triangles", report.findings.size(), frame.mesh.triangles.size());
     return violated(std::move(what), std::move(finding));
   }
   if (!has_several_levels(frame.mesh) && !is_threshold_blind(input)) {

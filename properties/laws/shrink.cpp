@@ -242,8 +242,10 @@ void simpler_cameras(const LawInput& input, Candidates& candidates) {
 }
 
 /// Whether the law is violated in the way that is being shrunk.
-std::optional<LawOutcome> violated_alike(const Law& law, const LawInput& input, const LawOutcome& like) {
+std::optional<LawOutcome> violated_alike(const Law& law, const LawInput& input, const LawOutcome& like,
+                                         const std::function<bool(const LawInput&)>& accept) {
   try {
+    if (accept && !accept(input)) return std::nullopt;
     LawOutcome outcome = judge(law, input);
     if (outcome.kind != LawOutcome::Kind::violated) return std::nullopt;
     if (outcome.finding.has_value() != like.finding.has_value()) return std::nullopt;
@@ -322,8 +324,7 @@ Shrunk shrink(const Law& law, const LawInput& input, const LawOutcome& outcome, 
       if (!child) break;
       ++best.trials;
       LawInput candidate = child->value();
-      if (accept && !accept(candidate)) continue;
-      if (auto found = violated_alike(law, candidate, outcome)) {
+      if (auto found = violated_alike(law, candidate, outcome, accept)) {
         best.input = std::move(candidate);
         best.outcome = std::move(*found);
         node = *child;
