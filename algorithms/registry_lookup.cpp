@@ -30,7 +30,9 @@ Value option_or(const Options& options, const std::string& name, Value fallback)
 }
 
 void check_options(const MethodDescription& method, const Options& options) {
-  for (const auto& [name, value] : options) {
+  for (const auto& option_and_value : options) {
+    const std::string& name = option_and_value.first;  // clang 14 lets no lambda see a structured binding
+    const OptionValue& value = option_and_value.second;
     const auto known = std::find_if(method.options.begin(), method.options.end(),
                                     [&](const OptionDescription& option) { return option.name == name; });
     if (known == method.options.end()) {
