@@ -41,8 +41,8 @@ std::string report_html(const verdict::SuiteVerdict& verdict, const verdict::Sui
 
 /// Writes all of the above and images/<run>.{mesh,error,reference}.png into `out`, which is made if missing.
 /// Each file appears whole or not at all, and replaces its namesake; files of other names stay. Throws
-/// InputError
-/// ("cannot write …") when the system refuses.
+/// InputError ("cannot
+/// write …") when the system refuses.
 void write_reports(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing,
                    std::span<const verdict::FramePictures> pictures, const std::filesystem::path& out,
                    const std::string& command = {});

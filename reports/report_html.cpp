@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "reports/digest.h"
+#include "reports/encoded_frame.h"
 #include "reports/escape.h"
 #include "reports/json_text.h"
 #include "reports/page_template.h"
@@ -17,10 +18,10 @@
 namespace plumbline::reports {
 namespace {
 
-std::string data_uri(const Picture& picture) { return "data:image/png;base64," + base64(png_bytes(picture)); }
+std::string data_uri(const std::string& png) { return "data:image/png;base64," + base64(png); }
 
 /// What the page needs besides the two JSON files.
-Json facts_json(const verdict::SuiteVerdict& verdict, std::span<const verdict::FramePictures> pictures,
+Json facts_json(const verdict::SuiteVerdict& verdict, std::span<const EncodedFrame> frames,
                 const std::string& command) {
   const VerdictWords words = verdict_in_words(verdict);
   Json out = {
@@ -30,13 +31,13 @@ Json facts_json(const verdict::SuiteVerdict& verdict, std::span<const verdict::F
   for (const oracle::FindingDescription& entry : oracle::finding_catalogue())
     out["catalogue"].push_back(
         {{"code", static_cast<int>(entry.code)}, {"name", entry.name}, {"definition", entry.definition}});
-  for (const verdict::FramePictures& frame : pictures)
+  for (const EncodedFrame& frame : frames)
     out["pictures"].push_back({{"run", frame.run},
                                {"frame", frame.frame},
                                {"threshold_px", frame.threshold_px},
-                               {"mesh", data_uri(shaded_picture(frame.shaded))},
-                               {"error", data_uri(heat_map(frame.displacement_px, frame.threshold_px))},
-                               {"reference", data_uri(shaded_picture(frame.reference))}});
+                               {"mesh", data_uri(frame.mesh)},
+                               {"error", data_uri(frame.error)},
+                               {"reference", data_uri(frame.reference)}});
   return out;
 }
 
@@ -59,14 +60,27 @@ std::string fill(std::string_view page, const std::map<std::string_view, std::st
 
 }  // namespace
 
+std::vector<EncodedFrame> encode(std::span<const verdict::FramePictures> pictures) {
+  std::vector<EncodedFrame> out;
+  for (const verdict::FramePictures& frame : pictures)
+    out.push_back({frame.run, frame.frame, frame.threshold_px, png_bytes(shaded_picture(frame.shaded)),
+                   png_bytes(heat_map(frame.displacement_px, frame.threshold_px)),
+                   png_bytes(shaded_picture(frame.reference))});
+  return out;
+}
+
+std::string page_html(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing,
+                      std::span<const EncodedFrame> frames, const std::string& command) {
+  const std::string title = fmt::format("{}: {}", verdict.suite, verdict.pass() ? "pass" : "fail");
+  return fill(kPageTemplate, {{"title", markup_escape(title)},
+                              {"facts", script_safe_json(json_text(facts_json(verdict, frames, command), 1))},
+                              {"results", script_safe_json(results_json(verdict))},
+                              {"timing", script_safe_json(timing_json(timing))}});
+}
+
 std::string report_html(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing,
                         std::span<const verdict::FramePictures> pictures, const std::string& command) {
-  const std::string title = fmt::format("{}: {}", verdict.suite, verdict.pass() ? "pass" : "fail");
-  return fill(kPageTemplate,
-              {{"title", markup_escape(title)},
-               {"facts", script_safe_json(json_text(facts_json(verdict, pictures, command), 1))},
-               {"results", script_safe_json(results_json(verdict))},
-               {"timing", script_safe_json(timing_json(timing))}});
+  return page_html(verdict, timing, encode(pictures), command);
 }
 
 }  // namespace plumbline::reports

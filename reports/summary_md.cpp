@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -99,18 +100,45 @@ std::string matrix(const verdict::SuiteVerdict& verdict) {
   return out;
 }
 
+/// One line for each failed gate and method, with the run that is furthest beyond its limit.
 std::string failed_gates(const verdict::SuiteVerdict& verdict) {
-  Table table({"failed gate", "run", "limit", "value"}, 3);
-  std::size_t failed = 0;
+  struct Failure {
+    std::string gate, method;
+    std::size_t failed = 0, runs = 0;
+    const verdict::GateVerdict* worst = nullptr;
+  };
+  std::map<std::string_view, std::string> method_of;
+  for (const verdict::RunVerdict& run : verdict.runs) method_of[run.id] = run.method;
+  std::vector<Failure> failures;
   for (const verdict::GateVerdict& gate : verdict.gates) {
-    if (gate.pass || ++failed > kFailedGatesShown) continue;
-    table.row({markdown_cell(gate.name), markdown_cell(gate.run), markdown_cell(gate.limit),
-               short_number(gate.value)});
+    const std::string& method = method_of[gate.run];
+    auto known = std::ranges::find_if(failures, [&](const Failure& failure) {
+      return failure.gate == gate.name && failure.method == method;
+    });
+    if (known == failures.end()) {
+      Failure fresh;
+      fresh.gate = gate.name;
+      fresh.method = method;
+      known = failures.insert(failures.end(), std::move(fresh));
+    }
+    ++known->runs;
+    if (gate.pass) continue;
+    ++known->failed;
+    const bool least_counts = gate.limit.starts_with('>');
+    if (known->worst == nullptr || std::isnan(gate.value) ||
+        (least_counts ? gate.value < known->worst->value : gate.value > known->worst->value))
+      known->worst = &gate;
   }
-  if (failed == 0) return {};
+  std::erase_if(failures, [](const Failure& failure) { return failure.failed == 0; });
+  if (failures.empty()) return {};
+  Table table({"failed gate", "method", "worst run", "limit", "value", "runs failed"}, 4);
+  for (const Failure& failure : std::span(failures).first(std::min(failures.size(), kFailedGatesShown)))
+    table.row({markdown_cell(failure.gate), markdown_cell(failure.method), markdown_cell(failure.worst->run),
+               markdown_cell(failure.worst->limit), short_number(failure.worst->value),
+               fmt::format("{} of {}", failure.failed, failure.runs)});
   std::string out = "\n## Failed gates\n\n" + table.text();
-  if (failed > kFailedGatesShown)
-    out += fmt::format("\n… and {} more, in junit.xml.\n", failed - kFailedGatesShown);
+  if (failures.size() > kFailedGatesShown)
+    out += fmt::format("\n… and {} more, in junit.xml.\n", failures.size() - kFailedGatesShown);
   return out;
 }
 

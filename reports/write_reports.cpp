@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "reports/encoded_frame.h"
 #include "reports/escape.h"
-#include "reports/picture.h"
 #include "reports/report.h"
 #include "scenarios/whole_file.h"
 
@@ -19,17 +20,15 @@ void write_reports(const verdict::SuiteVerdict& verdict, const verdict::SuiteTim
   write_whole_file(out / "results.csv", results_csv(verdict));
   write_whole_file(out / "junit.xml", junit_xml(verdict));
   write_whole_file(out / "summary.md", summary_md(verdict, timing));
-  for (const verdict::FramePictures& frame : pictures) {
+  const std::vector<EncodedFrame> frames = encode(pictures);
+  for (const EncodedFrame& frame : frames) {
     const std::string stem = file_stem(frame.run);
-    const auto write = [&](const char* what, const Picture& picture) {
-      write_whole_file(out / "images" / fmt::format("{}.{}.png", stem, what), png_bytes(picture));
-    };
-    write("mesh", shaded_picture(frame.shaded));
-    write("error", heat_map(frame.displacement_px, frame.threshold_px));
-    write("reference", shaded_picture(frame.reference));
+    write_whole_file(out / "images" / fmt::format("{}.mesh.png", stem), frame.mesh);
+    write_whole_file(out / "images" / fmt::format("{}.error.png", stem), frame.error);
+    write_whole_file(out / "images" / fmt::format("{}.reference.png", stem), frame.reference);
   }
   // Last: who finds a page finds what it speaks of.
-  write_whole_file(out / "report.html", report_html(verdict, timing, pictures, command));
+  write_whole_file(out / "report.html", page_html(verdict, timing, frames, command));
 }
 
 }  // namespace plumbline::reports

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Speed against accuracy, and triangles against error: a curve per method over its thresholds.
-import { axis, base, chart, css, look, tooltip } from './chart';
+import { axis, base, chart, css, look, NARROW, tooltip } from './chart';
 import type { Option } from './chart';
 import { controls, orAll, section, select } from './controls';
 import { median, methods, results, terrains, timingOf, trajectories, worst } from './data';
@@ -48,23 +48,23 @@ const LEAST_FLOOR_PX = 1e-4;
 function floorOf(values: Figure[], least: number): number {
   const shown = values.filter((value): value is number => value !== null && value > least);
   if (shown.length === 0) return least;
-  return Math.max(least, 10 ** (Math.floor(Math.log10(Math.min(...shown))) - 1));
+  return Math.max(least, 10 ** Math.floor(Math.log10(Math.min(...shown) / 2)));
 }
 function ceilingOf(values: Figure[], floor: number): number {
   const most = Math.max(floor * 10, ...values.filter((value): value is number => value !== null));
   return 10 ** Math.ceil(Math.log10(most) - 1e-9);
 }
 
-function errorChart(runs: Run[], narrow: boolean, x: 'update' | 'triangles'): Option {
+function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Option {
   const all = points(runs).filter((point) => point[x] !== null && point.p99 !== null);
   const floor = floorOf(all.map((point) => point.p99), LEAST_FLOOR_PX);
   const pinned = all.some((point) => point.p99! < floor);
   const xFloor = 10 ** Math.floor(Math.log10(Math.max(1e-5, Math.min(...all.map((point) => point[x]!)))) + 1e-9);
   const shown = methods.filter((method) => all.some((point) => point.method === method));
   return {
-    ...base(narrow, shown),
+    ...base(width, shown),
     tooltip: {
-      ...(base(narrow, shown)['tooltip'] as object),
+      ...(base(width, shown)['tooltip'] as object),
       trigger: 'item',
       formatter: ({ data }: { data: { point: Point } }) => {
         const point = data.point;
@@ -95,8 +95,9 @@ function errorChart(runs: Run[], narrow: boolean, x: 'update' | 'triangles'): Op
         lineStyle: { color: colour, width: 2, type: dash },
         itemStyle: { color: colour },
         emphasis: { scale: 1.4 },
+        // Labels of neighbouring curves stand on different sides.
         label: {
-          show: !narrow, position: 'right', distance: 8, color: css('--muted'), fontSize: 11,
+          show: width >= NARROW, position: methods.indexOf(method) % 2 ? 'right' : 'left', distance: 6, color: css('--muted'), fontSize: 11,
           formatter: ({ data }: { data: { point: Point } }) =>
             data.point.p99 === 0 ? 'zero error' : `τ ${short(data.point.threshold)}`,
         },
@@ -105,6 +106,7 @@ function errorChart(runs: Run[], narrow: boolean, x: 'update' | 'triangles'): Op
           value: [Math.max(xFloor, point[x]!), Math.max(floor, point.p99!)],
           point,
           // Hollow: the 99th percentile is above the threshold that the method was given.
+          label: point.p99! < floor ? { position: 'top' } : undefined,
           itemStyle: point.p99! > point.threshold
             ? { color: css('--card'), borderColor: colour, borderWidth: 2.5 }
             : { color: colour },
@@ -123,9 +125,9 @@ export function accuracySection(): HTMLElement {
     (terrain.value() === '' || run.terrain === terrain.value()) &&
     (trajectory.value() === '' || run.trajectory === trajectory.value()));
   const speed = chart('Chart: update time against displacement, a curve per method',
-    (narrow) => errorChart(chosen(), narrow, 'update'));
+    (width) => errorChart(chosen(), width, 'update'));
   const size = chart('Chart: triangles against displacement, a curve per method',
-    (narrow) => errorChart(chosen(), narrow, 'triangles'));
+    (width) => errorChart(chosen(), width, 'triangles'));
   const charts = [speed, size];
   return section('accuracy', 'Speed against accuracy',
     el('p', { class: 'lead' }, 'Down and to the left is better. A curve joins one method’s thresholds τ; a hollow marker ' +

@@ -32,10 +32,10 @@ const redraws: (() => void)[] = [];
 dark.addEventListener('change', () => redraws.forEach((redraw) => redraw()));
 
 /** A chart that follows its width and the page's colours. `option` is asked anew at every redraw. */
-export function chart(label: string, option: (narrow: boolean) => Option) {
+export function chart(label: string, option: (width: number) => Option) {
   const holder = el('div', { class: 'chart', role: 'img', 'aria-label': label });
   let instance: echarts.ECharts | undefined;
-  const redraw = () => instance?.setOption(option(holder.clientWidth < 560), { notMerge: true });
+  const redraw = () => instance?.setOption(option(holder.clientWidth), { notMerge: true });
   new ResizeObserver(() => {
     if (holder.clientWidth === 0) return;
     if (instance) instance.resize();
@@ -46,14 +46,33 @@ export function chart(label: string, option: (narrow: boolean) => Option) {
   return { element: holder, redraw };
 }
 
+/** Below this width a chart leaves out what would crowd it. */
+export const NARROW = 440;
+
+const LEGEND_ROW = 24, LEGEND_MARK = 34, LEGEND_GAP = 20, LETTER = 8;
+/** The rows that a legend needs, as it fills them from the left. Letters are counted wide rather than narrow. */
+function legendRows(legend: string[], width: number): number {
+  let rows = 1, used = 0;
+  for (const name of legend) {
+    const needs = LEGEND_MARK + 5 + name.length * LETTER + LEGEND_GAP;
+    if (used > 0 && used + needs > width) {
+      rows += 1;
+      used = 0;
+    }
+    used += needs;
+  }
+  return rows;
+}
+
 /** What all charts share: type, grid, legend, tooltip. */
-export function base(narrow: boolean, legend: string[]): Option {
+export function base(width: number, legend: string[]): Option {
+  const narrow = width < NARROW;
   return {
     animation: false,
     textStyle: { fontFamily: css('--font'), color: css('--ink') },
-    grid: { left: narrow ? 52 : 64, right: narrow ? 12 : 24, top: 16 + 24 * (narrow ? legend.length : 1), bottom: 52 },
+    grid: { left: narrow ? 52 : 64, right: narrow ? 12 : 24, top: 16 + LEGEND_ROW * legendRows(legend, width), bottom: 52 },
     legend: {
-      data: legend, top: 0, left: 0, orient: narrow ? 'vertical' : 'horizontal', itemWidth: 34, itemGap: narrow ? 8 : 20,
+      data: legend, top: 0, left: 0, width: '100%', itemWidth: LEGEND_MARK, itemGap: LEGEND_GAP,
       textStyle: { color: css('--ink'), fontSize: 13 },
     },
     tooltip: {

@@ -31,11 +31,24 @@ function header(): HTMLElement {
       fact('Repeat', el('code', {}, facts.command))));
 }
 
+const enlarged = el('dialog', { 'aria-label': 'Picture at full size' });
+enlarged.addEventListener('click', () => enlarged.close());
+
+/** A picture that opens at full size; Escape or a click closes it. */
+function enlargeable(source: string, caption: string): HTMLElement {
+  const button = el('button', { type: 'button', class: 'picture', title: 'Enlarge' },
+    el('img', { src: source, alt: caption, loading: 'lazy' }));
+  button.addEventListener('click', () => {
+    enlarged.replaceChildren(el('img', { src: source, alt: caption }));
+    enlarged.showModal();
+  });
+  return button;
+}
+
 function picturesSection(): HTMLElement | null {
   if (facts.pictures.length === 0) return null;
   const panel = (source: string, caption: string) =>
-    el('figure', {}, el('a', { href: source, download: '' }, el('img', { src: source, alt: caption, loading: 'lazy' })),
-      el('figcaption', {}, caption));
+    el('figure', {}, enlargeable(source, caption), el('figcaption', {}, caption));
   return section('pictures', 'Pictures',
     el('p', { class: 'lead' }, 'The frame with the largest p99 displacement of a run. The middle picture shows each ' +
       'pixel’s displacement from 0 to 2 τ (viridis), red beyond; the bar’s long mark is τ; grey pixels were not judged.'),
@@ -53,6 +66,6 @@ const sections = [
 const contents = el('nav', { 'aria-label': 'Contents' },
   ...sections.map((part) => el('a', { href: `#${part.id}` }, part.querySelector('h2')!.textContent ?? '')));
 
-document.getElementById('page')!.replaceChildren(header(), contents, el('main', {}, ...sections),
+document.getElementById('page')!.replaceChildren(header(), contents, el('main', {}, ...sections), enlarged,
   el('footer', {}, 'This page is one file and needs no network. Charts: Apache ECharts (Apache-2.0). Figures: results.json ' +
     'and timing.json beside it.'));

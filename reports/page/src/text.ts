@@ -25,6 +25,7 @@ export function short(value: number | null | undefined): string {
 
 /** The same for a tick on a logarithmic axis. */
 export function tick(value: number): string {
+  if (value === 0) return '0';
   if (value >= 1e6) return `${value / 1e6} M`;
   if (value >= 1e4) return `${value / 1e3} k`;
   return value < 1e-3 ? value.toExponential(0).replace('e-', 'e−') : String(Number(value.toPrecision(6)));

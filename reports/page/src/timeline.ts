@@ -36,18 +36,23 @@ const QUANTITIES: Quantity[] = [
   { label: 'slivers', unit: 'count', of: (frame) => frame.shape.slivers },
 ];
 
-function option(runs: Run[], quantity: Quantity, threshold: number, log: boolean, narrow: boolean): Option {
+function option(runs: Run[], quantity: Quantity, threshold: number, log: boolean, width: number): Option {
   const shown = methods.filter((method) => runs.some((run) => run.method === method));
   const frames = runs.flatMap((run) => run.frames.map((frame) => frame.index));
   const first = runs[0];
+  const amount = (value: Figure) => (quantity.unit === 'count' ? short(value) : `${short(value)} ${quantity.unit}`);
+  const named = (method: string) => {
+    const own = runs.find((run) => run.method === method)?.threshold_px;
+    return own === undefined || own === threshold ? method : `${method} at τ ${own} px`;
+  };
   return {
-    ...base(narrow, shown),
+    ...base(width, shown),
     tooltip: {
-      ...(base(narrow, shown)['tooltip'] as object),
+      ...(base(width, shown)['tooltip'] as object),
       trigger: 'axis',
       formatter: (items: { seriesName: string; value: [number, Figure, Figure] }[]) =>
         tooltip(`frame ${items[0]?.value[0] ?? ''}`,
-          items.map((item) => [item.seriesName, `${short(item.value[2])} ${quantity.unit === 'count' ? '' : quantity.unit}`])),
+          items.map((item) => [named(item.seriesName), amount(item.value[2])])),
     },
     xAxis: axis('frame', 'x', 'value', {
       min: Math.min(...frames), max: Math.max(...frames), minInterval: 1, splitLine: { show: false },
@@ -96,8 +101,8 @@ export function timelineSection(): HTMLElement {
         (Math.abs(run.threshold_px - tau) < Math.abs(best.threshold_px - tau) ? run : best))];
     });
   };
-  const drawing = chart('Chart: a figure along the trajectory, a curve per method', (narrow) =>
-    option(chosen(), QUANTITIES[Number(quantity.value())]!, Number(threshold.value()), log.checked(), narrow));
+  const drawing = chart('Chart: a figure along the trajectory, a curve per method', (width) =>
+    option(chosen(), QUANTITIES[Number(quantity.value())]!, Number(threshold.value()), log.checked(), width));
   return section('timeline', 'Along a trajectory',
     controls(terrain, trajectory, threshold, quantity, log), el('figure', {}, drawing.element));
 }
