@@ -56,6 +56,12 @@ VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain) {
     const Vec3& c = mesh.positions[corners[2]];
     if (!finite(a) || !finite(b) || !finite(c)) continue;
     if (orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}).value <= 0) continue;
+    const double reach_m = std::max(
+        {std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
+    if (reach_m > detail::kFarCells * spacing_m) {
+      for (const auto& part : detail::cut_to_grid({a, b, c}, terrain)) overlay.judge(part);
+      continue;
+    }
     const auto in_grid = [&](const Vec3& p) {
       return detail::GridPoint{in_cells(p.x, spacing_m), in_cells(p.y, spacing_m), p.z};
     };

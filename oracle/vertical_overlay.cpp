@@ -139,8 +139,6 @@ void Overlay::judge(const GridTriangle& given) {
   const auto [west, east] = std::minmax({given[0].x, given[1].x, given[2].x});
   const auto [south, north] = std::minmax({given[0].y, given[1].y, given[2].y});
   if (east <= 0 || north <= 0 || west >= columns_ - 1 || south >= rows_ - 1) return;
-  if (west < -kFarCells || south < -kFarCells || east > kFarCells || north > kFarCells)
-    return judge_far(given);
 
   // The same triangle from another corner is the same triangle: start at the southmost, then westmost.
   GridTriangle triangle = given;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "oracle/vertical_pieces.h"
 #include "scenarios/terrain.h"
@@ -16,16 +17,21 @@ struct GridPoint {
 };
 using GridTriangle = std::array<GridPoint, 3>;
 
-/// Coordinates beyond this many cells are cut to the grid before anything is computed from them: below it,
-/// products of two keep 53-bit accuracy to 2⁻²⁶ of a cell, and an int holds any of them.
+/// Coordinates up to this many cells are taken as they are: products of two keep 53-bit accuracy to 2⁻⁸ of a
+/// cell times a cell, sums to less, and an int holds any of them. Beyond, triangles are cut to the grid
+/// first.
 inline constexpr double kFarCells = 0x1p22;
+
+/// The part of a triangle (corners in metres, counter-clockwise) over the grid, as triangles; cut in exact
+/// arithmetic, then rounded.
+std::vector<GridTriangle> cut_to_grid(const std::array<Vec3, 3>& triangle, const Terrain& terrain);
 
 /// Visits every piece of (triangle ∩ grid) and gathers sums and peaks. One object judges one mesh.
 class Overlay {
  public:
   explicit Overlay(const Terrain& terrain);
 
-  /// Requires: counter-clockwise, coordinates finite.
+  /// Requires: counter-clockwise, coordinates at most kFarCells from 0.
   void judge(const GridTriangle& triangle);
   void finish() { sums_.finish(); }
 
@@ -54,7 +60,6 @@ class Overlay {
 
   // vertical_slivers.cpp: what is left: thin triangles, cells cut by two edges, corners between samples.
   void judge_corners(const GridTriangle& triangle);
-  void judge_far(const GridTriangle& triangle);
   void judge_sliver(const GridTriangle& triangle);
   void clip_to_half(const GridTriangle& triangle, int column, int row, Half half);
 

@@ -97,20 +97,6 @@ void Overlay::judge_corners(const GridTriangle& triangle) {
   }
 }
 
-/// Cuts a triangle that reaches far beyond the grid down to the grid, and judges the parts.
-void Overlay::judge_far(const GridTriangle& triangle) {
-  const double base_m = triangle[0].z;
-  Piece piece = as_piece(triangle, 0, 0, base_m);
-  clip_to_rows(piece, 0, rows_ - 1);
-  clip_to_columns(piece, 0, columns_ - 1);
-  std::array<GridPoint, 8> corners;
-  for (std::size_t k = 0; k < piece.size; ++k) {
-    corners[k] = {std::clamp(piece.corners[k].x, 0.0, columns_ - 1.0),
-                  std::clamp(piece.corners[k].y, 0.0, rows_ - 1.0), piece.corners[k].z + base_m};
-  }
-  for (std::size_t k = 2; k < piece.size; ++k) judge({corners[0], corners[k - 1], corners[k]});
-}
-
 void Overlay::judge_sliver(const GridTriangle& triangle) {
   Piece inside = as_piece(triangle, 0, 0, triangle[0].z);
   clip_to_rows(inside, 0, rows_ - 1);
