@@ -214,8 +214,9 @@ TEST_F(Run, InterruptedKeepsWhatWasFinished) {
 // run.
 TEST_F(Run, SameSuiteSameBytes) {
   SuiteText suite;
+  suite.terrain = "id = \"hills\"\ngenerator = \"fbm\"\nseed = 3\nsize = 65\nspacing_m = 10\n";
   suite.trajectory = "id = \"jump\"\nkind = \"teleport\"\nframes = 4\nseed = 9\n";
-  suite.method = "id = \"block_bintree\"\nthresholds_px = [1, 4]\n";
+  suite.method = "id = \"block_bintree\"\nthresholds_px = [1, 16]\n";
   suite.gate = "non_finite = 0\n";
   ASSERT_EQ(fly(suite, "a", {"--jobs", "1"}).status, 0);
   ASSERT_EQ(fly(suite, "b", {"--jobs", "2"}).status, 0);
@@ -274,11 +275,13 @@ TEST_F(Fuzz, SameSeedSameCases) {
   }
 }
 
-TEST_F(Fuzz, FindsNothingAgainstTheFullGrid) {
+TEST_F(Fuzz, FindsNothingThatTheFullGridPromises) {
   const Outcome hunt =
       run({"fuzz", "--method", "full", "--cases", "40", "--seed", "2", "--out", "found"}, 300);
   EXPECT_EQ(hunt.status, 0) << hunt.out << hunt.err;
-  EXPECT_TRUE(cases_in("found").empty());
+  // Its diagonals all lean one way, so it is not symmetric and does not promise to be: this alone is written
+  // down.
+  for (const std::string& name : cases_in("found")) EXPECT_THAT(name, HasSubstr("symmetric"));
 }
 
 }  // namespace
