@@ -136,9 +136,9 @@ TEST(SweepBottomUp, VisitsEveryNodeOnceAfterItsChildren) {
     const ClusterGrid grid(terrain, cluster, "test");
     std::vector<int> seen(grid.samples(), 0);
     std::size_t visits = 0;
-    const auto point = [&](std::size_t k) {
-      return GridPoint{static_cast<int>(k % static_cast<std::size_t>(columns)),
-                       static_cast<int>(k / static_cast<std::size_t>(columns))};
+    const auto width = static_cast<std::size_t>(columns);
+    const auto point = [width](std::size_t k) {
+      return GridPoint{static_cast<int>(k % width), static_cast<int>(k / width)};
     };
     sweep_bottom_up(grid, [&](const SweepNode& s) {
       ++visits;
