@@ -90,7 +90,9 @@ TEST_F(BadInput, TheUnspoiledRasterRuns) {
     }
   }
   put_raster("dem.vrt", 17, 17, samples);
-  put("suite.toml", with_file("dem.vrt").text());
+  SuiteText suite = with_file("dem.vrt");
+  suite.method = "id = \"restricted_quadtree\"\nthresholds_px = [0.5, 8]\n";
+  put("suite.toml", suite.text());
   const Outcome outcome = run({"run", "suite.toml", "--out", "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
