@@ -39,7 +39,8 @@ bool Camera::outside_view_cone(Vec3 center, double radius_m) const {
   const Vec3 v = center - position;
   const double along = dot(v, forward);
   const double aside = std::sqrt(std::max(0.0, dot(v, v) - along * along));
-  // Signed distance to the cone's surface, positive outside; behind the apex it underestimates, which keeps more.
+  // Signed distance to the cone's surface, positive outside; behind the apex it underestimates, which keeps
+  // more.
   const double distance = aside * cosine - along * sine;
   return distance > radius_m;
 }

@@ -17,7 +17,8 @@ namespace plumbline {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
-  throw InputError(fmt::format("cannot write {}: {}; choose a place that can be written", path.string(), why));
+  throw InputError(
+      fmt::format("cannot write {}: {}; choose a place that can be written", path.string(), why));
 }
 
 }  // namespace

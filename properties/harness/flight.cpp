@@ -17,8 +17,8 @@
 namespace plumbline {
 namespace {
 
-/// Processor time of this thread, milliseconds: what an update costs, whatever else the machine is doing. Methods have
-/// no threads of their own, so nothing escapes it.
+/// Processor time of this thread, milliseconds: what an update costs, whatever else the machine is doing.
+/// Methods have no threads of their own, so nothing escapes it.
 double thread_time_ms() {
   std::timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -178,7 +178,7 @@ TEST(SaintHelens, CollarIsCroppedOrFilledNeverSilent) {
   const std::filesystem::path path =
       (folder != nullptr ? std::filesystem::path(folder) : kSource / "../shared/data") / "SainteHelens.dem";
   if (!std::filesystem::exists(path))
-    GTEST_SKIP() << "SainteHelens.dem is not there; set PLUMBLINE_SHARED_DATA";
+    GTEST_SKIP() << "needs ../shared/data/SainteHelens.dem (or set PLUMBLINE_SHARED_DATA)";
   TerrainSource source = from_file(path);
   EXPECT_THAT(input_error([&] { (void)load_terrain(source); }), HasSubstr("samples hold no data"));
   source.holes = HolePolicy::crop;
