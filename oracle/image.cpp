@@ -75,6 +75,7 @@ void for_each_displacement(const SeenSurface& seen, const RaySurface& other, Jud
   const auto width = static_cast<std::size_t>(seen.hits().width);
   const auto height = static_cast<std::size_t>(seen.hits().height);
   const PlanIndex& index = other.state().plan_index();
+  PlanIndex::Cursor cursor;
   const Mesh& mesh = other.mesh();
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
@@ -82,7 +83,7 @@ void for_each_displacement(const SeenSurface& seen, const RaySurface& other, Jud
       if (seen.hits().triangle[pixel] == PixelHits::kNoHit) continue;
       const Vec3 point = seen.point(x, y, pixel);
       if (!(seen.view().local(point).z > 0)) continue;
-      if (const auto top = index.top(mesh, {point.x, point.y})) {
+      if (const auto top = index.top(mesh, {point.x, point.y}, cursor)) {
         judged(pixel, vertical_length_px(seen.view(), point, *top));
       } else {
         uncovered(pixel);

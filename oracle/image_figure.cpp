@@ -3,45 +3,11 @@
 #include "oracle/image_figure.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
 namespace plumbline::oracle {
 namespace {
-
-/// Bits of a non-negative double order as the double does; the upper 16 are sign, exponent and 4 bits of
-/// mantissa.
-constexpr int kBucketShift = 48;
-
-/// The value of rank ⌈permille · count / 1000⌉ from below, for each permille: nearest-rank quantiles, exact.
-/// One pass counts the values' upper bits; only the bucket that holds the rank is looked at closely.
-template <std::size_t N>
-std::array<double, N> quantiles(const std::vector<double>& values,
-                                const std::array<std::size_t, N>& permilles) {
-  std::vector<std::uint32_t> counts(std::size_t{1} << 15, 0);
-  const auto bucket_of = [](double v) {
-    return static_cast<std::size_t>(std::bit_cast<std::uint64_t>(v) >> kBucketShift);
-  };
-  for (const double v : values) ++counts[bucket_of(v)];
-  std::array<double, N> result{};
-  std::vector<double> members;
-  for (std::size_t i = 0; i < N; ++i) {
-    const std::size_t rank = (values.size() * permilles[i] + 999) / 1000;  // from 1
-    std::size_t bucket = 0;
-    std::size_t below = 0;
-    while (below + counts[bucket] < rank) below += counts[bucket++];
-    members.clear();
-    for (const double v : values) {
-      if (bucket_of(v) == bucket) members.push_back(v);
-    }
-    const auto place = members.begin() + static_cast<std::ptrdiff_t>(rank - below - 1);
-    std::nth_element(members.begin(), place, members.end());
-    result[i] = *place;
-  }
-  return result;
-}
 
 bool sees_terrain(const PixelHits& hits, std::size_t pixel) {
   return hits.triangle[pixel] != PixelHits::kNoHit;
@@ -110,7 +76,7 @@ double largest_distance(const PixelHits& terrain, const PixelHits& sky) {
 
 }  // namespace
 
-PixelFigure FigureBuilder::finish() {
+PixelFigure FigureBuilder::finish() const {
   PixelFigure figure;
   figure.count = values_.size();
   if (values_.empty()) return figure;
@@ -118,11 +84,25 @@ PixelFigure FigureBuilder::finish() {
   figure.max = max_;
   figure.mean = sum_ / count;
   figure.rms = std::sqrt(squares_ / count);
-  if (max_ > 0) {
-    const auto q = quantiles<2>(values_, {999, 990});
-    figure.p999 = q[0];
-    figure.p99 = q[1];
+  // Quantiles by nearest rank, from below and from 1. All values from the 99 % quantile's bucket on are few;
+  // both quantiles are among them.
+  const std::size_t rank_99 = (values_.size() * 99 + 99) / 100;
+  const std::size_t rank_999 = (values_.size() * 999 + 999) / 1000;
+  std::size_t bucket = 0;
+  std::size_t below = 0;
+  while (below + buckets_[bucket] < rank_99) below += buckets_[bucket++];
+  std::vector<double> upper;
+  upper.reserve(values_.size() - below);
+  for (const double v : values_) {
+    if (bucket_of(v) >= bucket) upper.push_back(v);
   }
+  const auto quantile = [&](std::size_t rank) {
+    const auto place = upper.begin() + static_cast<std::ptrdiff_t>(rank - below - 1);
+    std::nth_element(upper.begin(), place, upper.end());
+    return *place;
+  };
+  figure.p99 = quantile(rank_99);
+  figure.p999 = quantile(rank_999);
   return figure;
 }
 

@@ -3,7 +3,9 @@
 #include "oracle/image_plan_index.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace plumbline::oracle {
 namespace {
@@ -21,6 +23,9 @@ constexpr double kCellSlack = 0x1p-32;
 /// Entries a triangle: a grid is made coarser until its boxes need no more, and no cell is refined once the
 /// whole index holds that many. So memory is linear in triangles, even where all of them overlap.
 constexpr double kEntriesTop = 12, kEntriesFiner = 5, kEntriesWhole = 40;
+
+/// Cells with more triangles than this are not looked into for a proof that they are covered once.
+constexpr std::size_t kMostProved = 24;
 
 Vec2 plan(Vec3 p) { return {p.x, p.y}; }
 
@@ -74,6 +79,56 @@ bool may_reach(Vec2 a, Vec2 b, Vec2 c, Vec2 low, Vec2 high) {
   return !(beside(a, b) || beside(b, c) || beside(c, a));
 }
 
+bool meets(Vec2 a, Vec2 b, Vec2 low, Vec2 high) {
+  if (std::max(a.x, b.x) < low.x || std::min(a.x, b.x) > high.x) return false;
+  if (std::max(a.y, b.y) < low.y || std::min(a.y, b.y) > high.y) return false;
+  const double s0 = edge_value(a, b, low);
+  const double s1 = edge_value(a, b, high);
+  const double s2 = edge_value(a, b, {low.x, high.y});
+  const double s3 = edge_value(a, b, {high.x, low.y});
+  return !((s0 > 0 && s1 > 0 && s2 > 0 && s3 > 0) || (s0 < 0 && s1 < 0 && s2 < 0 && s3 < 0));
+}
+
+/// Whether every point of the rectangle lies in exactly one triangle (on an edge: in the two that share it).
+/// `run` are all triangles that may reach into it. May say no without need, never yes wrongly (up to slivers
+/// that double cannot tell from nothing).
+///
+/// Proof: if all triangles are positively oriented, the number of triangles over a point changes only where
+/// an edge is crossed, by −1 and +1; if each edge that meets the rectangle has exactly one twin running the
+/// other way between the same vertices, it does not change at all; so it is what it is at the centre.
+bool covered_once(const Mesh& mesh, std::span<const std::uint32_t> run, Vec2 low, Vec2 high) {
+  if (run.size() > kMostProved) return false;
+  std::array<std::pair<std::uint32_t, std::uint32_t>, 3 * kMostProved> edges;
+  std::size_t edge_count = 0;
+  std::size_t over_centre = 0;
+  const Vec2 centre{low.x * 0.5 + high.x * 0.5, low.y * 0.5 + high.y * 0.5};
+  for (const std::uint32_t t : run) {
+    const auto& v = mesh.triangles[t];
+    const Vec2 a = plan(mesh.positions[v[0]]);
+    const Vec2 b = plan(mesh.positions[v[1]]);
+    const Vec2 c = plan(mesh.positions[v[2]]);
+    if (!(edge_value(a, b, c) > 0)) return false;
+    const double least =
+        std::min({edge_value(a, b, centre), edge_value(b, c, centre), edge_value(c, a, centre)});
+    if (least == 0) return false;
+    over_centre += least > 0 ? 1U : 0U;
+    for (std::size_t k = 0; k < 3; ++k) edges[edge_count++] = {v[k], v[(k + 1) % 3]};
+  }
+  if (over_centre != 1) return false;
+  for (std::size_t i = 0; i < edge_count; ++i) {
+    const auto [from, to] = edges[i];
+    int same = 0;
+    int twins = 0;
+    for (std::size_t k = 0; k < edge_count; ++k) {
+      same += edges[k].first == from && edges[k].second == to ? 1 : 0;
+      twins += edges[k].first == to && edges[k].second == from ? 1 : 0;
+    }
+    if (same == 1 && twins == 1) continue;
+    if (meets(plan(mesh.positions[from]), plan(mesh.positions[to]), low, high)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<double> height_over(Vec3 a, Vec3 b, Vec3 c, Vec2 p) {
@@ -94,17 +149,20 @@ std::optional<double> height_over(Vec3 a, Vec3 b, Vec3 c, Vec2 p) {
 PlanIndex::PlanIndex(const Mesh& mesh, std::span<const std::uint8_t> usable) {
   std::vector<std::uint32_t> members;
   members.reserve(mesh.triangles.size());
+  bool first = true;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!usable_triangle(usable, t)) continue;
     for (const std::uint32_t v : mesh.triangles[t]) {
       const Vec3& p = mesh.positions[v];
-      if (members.empty() && v == mesh.triangles[t][0]) low_ = high_ = plan(p);
+      if (first) low_ = high_ = plan(p);
+      first = false;
       low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
       high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
     }
     members.push_back(static_cast<std::uint32_t>(t));
   }
   if (members.empty()) return;
+  alone_.assign(mesh.triangles.size(), 1);
   used_ = members.size();
   const double wanted = std::sqrt(static_cast<double>(members.size()) / 2);
   const auto side = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMaxTopSide)));
@@ -205,6 +263,13 @@ void PlanIndex::add_grid(const Mesh& mesh, std::span<const std::uint32_t> member
     }
     cells_[grid.first_cell + i] = {static_cast<std::uint32_t>(triangles_.size()), count};
     triangles_.insert(triangles_.end(), run.begin(), run.end());
+    const auto x = static_cast<double>(i % grid.columns);
+    const auto y = static_cast<double>(i / grid.columns);
+    const Vec2 cell_low{low.x + cell_x * x - slack_x, low.y + cell_y * y - slack_y};
+    const Vec2 cell_high{low.x + cell_x * (x + 1) + slack_x, low.y + cell_y * (y + 1) + slack_y};
+    if (!covered_once(mesh, run, cell_low, cell_high)) {
+      for (const std::uint32_t t : run) alone_[t] = 0;
+    }
   }
 }
 
@@ -219,12 +284,21 @@ std::span<const std::uint32_t> PlanIndex::candidates(Vec2 p) const {
   }
 }
 
-std::optional<double> PlanIndex::top(const Mesh& mesh, Vec2 p) const {
+std::optional<double> PlanIndex::top(const Mesh& mesh, Vec2 p, Cursor& cursor) const {
+  const auto height_of = [&](std::uint32_t t) {
+    const auto& v = mesh.triangles[t];
+    return height_over(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]], p);
+  };
+  if (cursor.triangle != Cursor::kNone && alone_[cursor.triangle] != 0) {
+    if (const auto height = height_of(cursor.triangle)) return height;
+  }
   std::optional<double> best;
   for (const std::uint32_t t : candidates(p)) {
-    const auto& v = mesh.triangles[t];
-    const auto height = height_over(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]], p);
-    if (height && (!best || *height > *best)) best = height;
+    const auto height = height_of(t);
+    if (!height || (best && !(*height > *best))) continue;
+    best = height;
+    cursor.triangle = t;
+    if (alone_[t] != 0) break;
   }
   return best;
 }

@@ -30,9 +30,14 @@ class PlanIndex {
   /// look-ups.
   PlanIndex(const Mesh& mesh, std::span<const std::uint8_t> usable);
 
+  /// Where the last look-up ended; one for each run of look-ups, so that neighbouring points are quick.
+  struct Cursor {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    std::uint32_t triangle = kNone;
+  };
   /// Greatest height of the mesh over p, metres; nothing where no triangle lies over p. A terrain is read
-  /// from above: where a mesh folds or overlaps, its top counts.
-  [[nodiscard]] std::optional<double> top(const Mesh& mesh, Vec2 p) const;
+  /// from above: where a mesh folds or overlaps, its top counts. The answer does not depend on the cursor.
+  [[nodiscard]] std::optional<double> top(const Mesh& mesh, Vec2 p, Cursor& cursor) const;
   /// The mesh's height over p that is nearest to `height_m`; the upper one of two as near.
   [[nodiscard]] std::optional<double> nearest(const Mesh& mesh, Vec2 p, double height_m) const;
 
@@ -71,6 +76,9 @@ class PlanIndex {
   std::vector<Grid> grids_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> triangles_;
+  /// 1: every cell that the triangle reaches into is proved to be covered once, so what it covers nothing
+  /// else does.
+  std::vector<std::uint8_t> alone_;
 };
 
 }  // namespace plumbline::oracle

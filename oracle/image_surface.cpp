@@ -43,8 +43,9 @@ struct Corner {
 };
 
 std::int32_t subpixel(double px) {
-  constexpr double kLimit = 0x1p22;  // px: far outside of any picture, and in range
-  return static_cast<std::int32_t>(std::floor(std::clamp(px, -kLimit, kLimit) * kSubpixels + 0.5));
+  constexpr double kLimit = 0x1p20;  // px: far outside of any picture, and in range
+  // Truncation of what is made positive first: std::floor is a call on plain x86-64.
+  return static_cast<std::int32_t>((std::clamp(px, -kLimit, kLimit) + kLimit) * kSubpixels + 0.5) - (1 << 28);
 }
 
 Corner classify(const View& view, Vec3 p, double half_width, double half_height) {
@@ -225,6 +226,9 @@ RayHit RaySurface::first_hit(const Camera& camera, double x_px, double y_px) con
   return state_->tree().first_hit(View(camera), x_px, y_px);
 }
 
-std::optional<double> RaySurface::height_at(Vec2 p) const { return state_->plan_index().top(mesh(), p); }
+std::optional<double> RaySurface::height_at(Vec2 p) const {
+  PlanIndex::Cursor cursor;
+  return state_->plan_index().top(mesh(), p, cursor);
+}
 
 }  // namespace plumbline::oracle
