@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// O2's second, independent routes: dense sampling, which must never exceed the exact figures and must
+// approach them; and the same figures in rational numbers, by clipping every triangle to every quarter of
+// every cell. The rational route knows nothing of rows, distances, or of the envelope's convexity: it visits
+// crossings with both diagonals.
+
+#include <array>
+#include <vector>
+
+#include <CGAL/Exact_rational.h>
+#include <gtest/gtest.h>
+
+#include "oracle/vertical.h"
+#include "tests/oracle/vertical_support.h"
+
+namespace plumbline::oracle {
+namespace {
+
+using Rational = CGAL::Exact_rational;
+
+struct Point {
+  Rational x, y, z;
+};
+using Polygon = std::vector<Point>;
+
+template <class Function>
+Polygon clipped(const Polygon& polygon, Function function) {
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Point& p = polygon[k];
+    const Point& q = polygon[(k + 1) % polygon.size()];
+    const Rational from = function(p), to = function(q);
+    if (from >= 0) kept.push_back(p);
+    if (from * to < 0) {
+      const Rational t = from / (from - to);
+      kept.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
+    }
+  }
+  return kept;
+}
+
+struct ExactFigures {
+  Rational max = 0, certain_max = 0, area = 0, square = 0, absolute = 0;
+};
+
+Rational absolute(const Rational& value) { return value < 0 ? Rational(-value) : value; }
+
+/// ∫e and ∫e² over a polygon whose z is e.
+void integrate(const Polygon& polygon, Rational& area, Rational& first, Rational& second) {
+  area = first = second = 0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const Point &a = polygon[0], &b = polygon[k - 1], &c = polygon[k];
+    const Rational part = ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)) / 2;
+    area += part;
+    first += part * (a.z + b.z + c.z) / 3;
+    second += part * (a.z * a.z + b.z * b.z + c.z * c.z + a.z * b.z + b.z * c.z + c.z * a.z) / 6;
+  }
+}
+
+/// All figures of meshes in units of cells, heights as they are.
+ExactFigures exact_figures(const std::vector<Polygon>& triangles, const Terrain& terrain) {
+  ExactFigures figures;
+  for (const Polygon& triangle : triangles) {
+    for (int j = 0; j + 1 < terrain.rows; ++j) {
+      for (int i = 0; i + 1 < terrain.columns; ++i) {
+        Polygon cell;
+        for (const Point& p : triangle) cell.push_back({p.x - i, p.y - j, p.z});
+        cell = clipped(cell, [](const Point& p) { return p.x; });
+        cell = clipped(cell, [](const Point& p) { return p.y; });
+        cell = clipped(cell, [](const Point& p) { return Rational(1 - p.x); });
+        cell = clipped(cell, [](const Point& p) { return Rational(1 - p.y); });
+        const Rational z00 = terrain.z(i, j), z10 = terrain.z(i + 1, j);
+        const Rational z01 = terrain.z(i, j + 1), z11 = terrain.z(i + 1, j + 1);
+        for (const int quarter : {0, 1, 2, 3}) {
+          const bool southeast = quarter % 2 == 0, southwest = quarter / 2 == 0;
+          Polygon piece = clipped(
+              cell, [&](const Point& p) { return southeast ? Rational(p.x - p.y) : Rational(p.y - p.x); });
+          piece = clipped(piece, [&](const Point& p) {
+            return southwest ? Rational(1 - p.x - p.y) : Rational(p.x + p.y - 1);
+          });
+          for (Point& p : piece) {
+            const Rational declared = southeast ? Rational(z00 + p.x * (z10 - z00) + p.y * (z11 - z10))
+                                                : Rational(z00 + p.y * (z01 - z00) + p.x * (z11 - z01));
+            const Rational other = southwest
+                                       ? Rational(z00 + p.x * (z10 - z00) + p.y * (z01 - z00))
+                                       : Rational(z11 + (1 - p.x) * (z01 - z11) + (1 - p.y) * (z10 - z11));
+            const Rational high = declared > other ? declared : other,
+                           low = declared > other ? other : declared;
+            const Rational outside = p.z > high  ? Rational(p.z - high)
+                                     : p.z < low ? Rational(low - p.z)
+                                                 : Rational(0);
+            p.z -= declared;
+            if (absolute(p.z) > figures.max) figures.max = absolute(p.z);
+            if (outside > figures.certain_max) figures.certain_max = outside;
+          }
+          Rational area, first, second;
+          integrate(piece, area, first, second);
+          figures.area += area;
+          figures.square += second;
+          integrate(clipped(piece, [](const Point& p) { return p.z; }), area, first, second);
+          figures.absolute += first;
+          integrate(clipped(piece, [](const Point& p) { return Rational(-p.z); }), area, first, second);
+          figures.absolute -= first;
+        }
+      }
+    }
+  }
+  return figures;
+}
+
+void expect_exact(const Mesh& mesh, const Terrain& terrain, double scale_factor) {
+  std::vector<Polygon> triangles;
+  for (const auto& triangle : mesh.triangles) {
+    Polygon polygon;
+    for (const std::uint32_t v : triangle) {
+      const Vec3& p = mesh.positions[v];
+      polygon.push_back({Rational(p.x) / Rational(terrain.spacing_m),
+                         Rational(p.y) / Rational(terrain.spacing_m), Rational(p.z)});
+    }
+    triangles.push_back(polygon);
+  }
+  const ExactFigures exact = exact_figures(triangles, terrain);
+  const VerticalError error = vertical_error(mesh, terrain);
+  if (exact.area == 0) {  // beside the grid, or touching its rim: no domain in common
+    EXPECT_EQ(error.area_m2, 0);
+    EXPECT_EQ(error.max, 0);
+    return;
+  }
+  const double bound_m =
+      scale_factor * kVerticalRoundingFactor * 0x1p-53 * test::height_range_m(mesh, terrain);
+  EXPECT_NEAR(error.max, CGAL::to_double(exact.max), bound_m);
+  EXPECT_NEAR(error.certain_max, CGAL::to_double(exact.certain_max), bound_m);
+  const double area = CGAL::to_double(exact.area);
+  // Rounded corners of pieces shift areas by a few 2⁻⁵³ of a cell times the number of pieces: below 10⁻¹³
+  // cells here.
+  constexpr double kAreaBound = 1e-13;
+  EXPECT_NEAR(error.area_m2 / (terrain.spacing_m * terrain.spacing_m), area, kAreaBound);
+  if (area < 1e-3) return;  // means over less are ill-conditioned: sums and area above are what is promised
+  EXPECT_NEAR(error.rms, std::sqrt(CGAL::to_double(exact.square / exact.area)),
+              bound_m + 40 * kAreaBound / area);
+  EXPECT_NEAR(error.mean, CGAL::to_double(exact.absolute / exact.area), bound_m + 40 * kAreaBound / area);
+}
+
+TEST(VerticalExact, TrianglesOnSamplesMatchRationals) {
+  Random random(21);
+  for (int round = 0; round < 400; ++round) {
+    const int columns = 2 + static_cast<int>(random.below(4)), rows = 2 + static_cast<int>(random.below(4));
+    const Terrain terrain = test::random_terrain(columns, rows, 30, random.bits());
+    expect_exact(test::random_triangle(terrain, random, true, false), terrain, 1);
+  }
+}
+
+TEST(VerticalExact, TrianglesAnywhereMatchRationals) {
+  Random random(22);
+  for (int round = 0; round < 400; ++round) {
+    const int columns = 2 + static_cast<int>(random.below(4)), rows = 2 + static_cast<int>(random.below(4));
+    const Terrain terrain =
+        test::random_terrain(columns, rows, round % 2 == 0 ? 1.0 : 1.0 / 3, random.bits());
+    expect_exact(test::random_triangle(terrain, random, false, false), terrain, 1);
+  }
+}
+
+TEST(VerticalExact, SliversMatchRationals) {
+  // A sliver's height is 10⁻³ of its length: a rounding of its coordinates moves heights by as much more.
+  Random random(23);
+  for (int round = 0; round < 400; ++round) {
+    const Terrain terrain = test::random_terrain(5, 4, 1, random.bits());
+    expect_exact(test::random_triangle(terrain, random, false, true), terrain, 1e3);
+  }
+}
+
+TEST(VerticalExact, MeshesOfManyTrianglesMatchRationals) {
+  // Coarse and fine parts, both diagonals, vertices between samples: a fan around a free point, and a full
+  // grid.
+  Random random(24);
+  for (int round = 0; round < 30; ++round) {
+    const Terrain terrain = test::random_terrain(5, 5, 1, random.bits());
+    Mesh fan = test::two_triangles(terrain, [&](double, double) { return random.between(100, 120); });
+    fan.positions.push_back({random.between(0.5, 3.5), random.between(0.5, 3.5), random.between(100, 120)});
+    fan.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    expect_exact(fan, terrain, 1);
+    Mesh grid = test::grid_mesh(terrain, [&](int, int) { return random.below(2) == 0; });
+    for (Vec3& p : grid.positions) p.z += random.between(-1, 1);
+    expect_exact(grid, terrain, 1);
+  }
+}
+
+TEST(VerticalExact, DenseSamplesNeverExceedAndComeNear) {
+  Random random(25);
+  constexpr int kSteps = 250;
+  for (int round = 0; round < 120; ++round) {
+    const Terrain terrain =
+        test::random_terrain(2 + static_cast<int>(random.below(9)), 2 + static_cast<int>(random.below(9)),
+                             round % 2 == 0 ? 30 : 1.0 / 3, random.bits());
+    const Mesh mesh = test::random_triangle(terrain, random, round % 3 == 0, round % 5 == 1);
+    const VerticalError error = vertical_error(mesh, terrain);
+    const auto& p = mesh.positions;
+    double most = 0, squares = 0, absolutes = 0;
+    int count = 0;
+    for (int a = 0; a < kSteps; ++a) {
+      for (int b = 0; a + b < kSteps; ++b) {
+        // Barycentric midpoints of a regular subdivision: each stands for the same area.
+        const double u = (a + 1.0 / 3) / kSteps, v = (b + 1.0 / 3) / kSteps, w = 1 - u - v;
+        const Vec3 at = p[0] * u + p[1] * v + p[2] * w;
+        if (at.x < 0 || at.y < 0 || at.x > terrain.width_m() || at.y > terrain.depth_m()) continue;
+        const double difference = std::fabs(at.z - terrain.surface_height_m(at.x, at.y));
+        most = std::max(most, difference);
+        squares += difference * difference;
+        absolutes += difference;
+        ++count;
+      }
+    }
+    EXPECT_LE(most, error.max + kVerticalRoundingFactor * 0x1p-53 * 30) << round;
+    EXPECT_LE(error.certain_max, error.max) << round;
+    if (count < kSteps * kSteps / 4) continue;
+    // Heights differ by at most 30 m, a cell spans at least kSteps / 40 steps.
+    EXPECT_GE(most, error.max - 6) << round;
+    EXPECT_NEAR(std::sqrt(squares / count), error.rms, 0.02 * error.rms) << round;
+    EXPECT_NEAR(absolutes / count, error.mean, 0.02 * error.mean) << round;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::oracle
