@@ -83,11 +83,9 @@ TEST_F(BadInput, TheUnspoiledSuiteRuns) {
 
 TEST_F(BadInput, TheUnspoiledRasterRuns) {
   std::vector<float> samples(17 * 17);  // a hill on a plain, so that there are levels of detail to see
-  for (int y = 0; y < 17; ++y) {
-    for (int x = 0; x < 17; ++x) {
-      samples[static_cast<std::size_t>(17 * y + x)] =
-          static_cast<float>(8 * std::max(0, 5 - std::max(std::abs(x - 8), std::abs(y - 8))));
-    }
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const int x = static_cast<int>(i % 17), y = static_cast<int>(i / 17);
+    samples[i] = static_cast<float>(8 * std::max(0, 5 - std::max(std::abs(x - 8), std::abs(y - 8))));
   }
   put_raster("dem.vrt", 17, 17, samples);
   SuiteText suite = with_file("dem.vrt");
