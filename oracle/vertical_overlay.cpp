@@ -22,11 +22,6 @@ struct Overlay::Edge {
   double column_step = 0;  ///< −1/by_x, 0 for an edge along a row
 };
 
-/// The mesh triangle's plane: height over `base_m` at columns and rows from the origin.
-struct Overlay::Plane {
-  double base_m = 0, by_x = 0, by_y = 0, constant = 0;
-};
-
 /// Where a row of samples crosses the triangle; columns from the origin.
 struct Overlay::Row {
   int y = 0;
@@ -41,6 +36,7 @@ struct Overlay::Row {
 struct Overlay::Strip {
   const GridTriangle& triangle;
   const std::array<Edge, 3>& edges;
+  const Plane& plane;
   unsigned west_edges, east_edges;  ///< bit k: edge k faces west, east
   const Row& south;
   const Row& north;
@@ -95,7 +91,7 @@ Overlay::Edge Overlay::make_edge(const GridPoint& from, const GridPoint& to) {
   return edge;
 }
 
-Overlay::Plane Overlay::fit_plane(const GridTriangle& local) {
+Plane Overlay::fit_plane(const GridTriangle& local) {
   const double x1 = local[1].x - local[0].x, y1 = local[1].y - local[0].y, z1 = local[1].z - local[0].z;
   const double x2 = local[2].x - local[0].x, y2 = local[2].y - local[0].y, z2 = local[2].z - local[0].z;
   const double twice_area = x1 * y2 - x2 * y1;
@@ -226,8 +222,8 @@ void Overlay::judge_rows(const GridTriangle& triangle) {
 
   const auto locate = [&](Row& row, int y) {
     row.y = y;
-    row.errors = {terrain_.heights_m.data() + terrain_.index(origin_x, origin_y + y), plane.base_m,
-                  plane.by_x, plane.by_y * y + plane.constant};
+    row.errors = {terrain_.heights_m.data() + terrain_.index(origin_x, origin_y + y),
+                  plane.by_y * y + plane.constant};
     for (std::size_t k = 0; k < 3; ++k) row.base[k] = edges[k].by_y * y + edges[k].constant;
     row.meets = first_met <= y && y <= last_met;
     if (row.meets) cross_row(row, edges, last_column);
@@ -251,7 +247,7 @@ void Overlay::judge_rows(const GridTriangle& triangle) {
       first = std::min(first, corner.west);
       last = std::max(last, corner.east);
     }
-    judge_strip({triangle, edges, west_edges, east_edges, south, north, origin_x, origin_y,
+    judge_strip({triangle, edges, plane, west_edges, east_edges, south, north, origin_x, origin_y,
                  std::max(first, 0), std::min(last, last_column - 1)});
   }
 }
@@ -270,7 +266,8 @@ void Overlay::judge_strip(const Strip& strip) {
   const int cell_first = northwest_first;
   const int cell_last = std::min(southeast_last, northwest_last);
   if (cell_first <= cell_last) {
-    const double most = sums_.add_cells(south.errors, north.errors, cell_first, cell_last - cell_first + 1);
+    const double most =
+        sums_.add_cells(strip.plane, south.errors, north.errors, cell_first, cell_last - cell_first + 1);
     if (most >= certain_peak_.value) visit_cells(strip, cell_first, cell_last, most);
   }
   const auto judge_rest = [&](Half half, int whole_first, int whole_last) {
@@ -300,7 +297,7 @@ void Overlay::visit_cells(const Strip& strip, int first, int last, double most) 
       continue;
     }
     for (int x = first; x <= last + 1; ++x) {
-      if (std::fabs(row->errors.at(x)) == most) {
+      if (std::fabs(row->errors.at(strip.plane, x)) == most) {
         visit_everywhere(most, strip.origin_x + x, strip.origin_y + row->y);
         break;
       }
@@ -314,7 +311,7 @@ void Overlay::add_half(const Strip& strip, Half half, int x) {
   std::array<double, 3> error{};
   for (std::size_t k = 0; k < 3; ++k) {
     const Row& row = corner.y[k] == 0 ? strip.south : strip.north;
-    error[k] = row.errors.at(x + corner.x[k]);
+    error[k] = row.errors.at(strip.plane, x + corner.x[k]);
     visit_everywhere(error[k], strip.origin_x + x + corner.x[k], strip.origin_y + row.y);
   }
   sums_.add_triangle(error[0], error[1], error[2], 1);
@@ -365,7 +362,7 @@ void Overlay::cut_by_one(const Strip& strip, Half half, int x, const std::array<
   int inside = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Row& row = corner.y[k] == 0 ? strip.south : strip.north;
-    error[k] = row.errors.at(x + corner.x[k]);
+    error[k] = row.errors.at(strip.plane, x + corner.x[k]);
     if (distance[k] >= 0)
       visit_everywhere(error[k], strip.origin_x + x + corner.x[k], strip.origin_y + row.y);
     inside += distance[k] > 0 ? 1 : 0;

@@ -41,7 +41,6 @@ class Overlay {
 
  private:
   struct Edge;
-  struct Plane;
   struct Row;
   struct Strip;
   enum class Half { southeast, northwest };

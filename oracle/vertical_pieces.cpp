@@ -5,41 +5,47 @@
 
 namespace plumbline::oracle::detail {
 
-namespace {
-
-/// Errors at columns x and x + 1, as RowErrors::at has them.
-Pair errors_at(const RowErrors& row, int x, Pair columns) {
-  return (row.by_x * columns + row.row_height) - (load(row.heights + x) - row.base_m);
-}
-
-}  // namespace
-
-double PieceSums::add_cells(const RowErrors& south, const RowErrors& north, int first, int count) {
+double PieceSums::add_cells(const Plane& plane, const RowErrors& south, const RowErrors& north, int first,
+                            int count) {
   Pair squares = cell_squares_;
   Pair absolutes = cell_absolutes_;
   Pair lowest{}, highest{};
   const auto add = [&](Pair a, Pair b, Pair c, Pair d) {
-    const Pair low = lesser(lesser(a, b), lesser(c, d));
-    const Pair high = greater(greater(a, b), greater(c, d));
-    lowest = lesser(lowest, low);
-    highest = greater(highest, high);
     const Pair diagonal = a + c;
     const Pair southeast = diagonal + b;
     const Pair northwest = diagonal + d;
     squares += (southeast * southeast + northwest * northwest) + ((b * b + d * d) + 2 * (a * a + c * c));
-    absolutes += absolute_term(a, b, c, southeast) + absolute_term(a, c, d, northwest);
+    const Pair diagonal_low = lesser(a, c);
+    const Pair diagonal_high = greater(a, c);
+    const Pair southeast_low = lesser(b, diagonal_low);
+    const Pair southeast_high = greater(b, diagonal_high);
+    const Pair northwest_low = lesser(d, diagonal_low);
+    const Pair northwest_high = greater(d, diagonal_high);
+    lowest = lesser(lowest, lesser(southeast_low, northwest_low));
+    highest = greater(highest, greater(southeast_high, northwest_high));
+    absolutes += absolute_term(southeast_low, greater(diagonal_low, lesser(b, diagonal_high)), southeast_high,
+                               southeast) +
+                 absolute_term(northwest_low, greater(diagonal_low, lesser(d, diagonal_high)), northwest_high,
+                               northwest);
   };
-  int x = first;
-  const int end = first + count;
-  Pair columns{static_cast<double>(x), static_cast<double>(x + 1)};
-  for (; x + 1 < end; x += 2) {
-    const Pair next = columns + 1;
-    add(errors_at(south, x, columns), errors_at(south, x + 1, next), errors_at(north, x + 1, next),
-        errors_at(north, x, columns));
-    columns += 2;
-  }
-  if (x < end) {  // one cell is left; the other lane adds nothing
-    add(Pair{south.at(x), 0}, Pair{south.at(x + 1), 0}, Pair{north.at(x + 1), 0}, Pair{north.at(x), 0});
+  const double* s = south.heights + first;
+  const double* n = north.heights + first;
+  Pair columns{static_cast<double>(first), static_cast<double>(first + 1)};
+  for (int left = count; left > 0; left -= 2, s += 2, n += 2, columns += 2) {
+    const Pair west = plane.by_x * columns;
+    const Pair east = plane.by_x * (columns + 1);
+    if (left == 1) {  // the other lane adds nothing
+      const Pair keep{1, 0};
+      add(keep * ((west + south.row_height) - (s[0] - plane.base_m)),
+          keep * ((east + south.row_height) - (s[1] - plane.base_m)),
+          keep * ((east + north.row_height) - (n[1] - plane.base_m)),
+          keep * ((west + north.row_height) - (n[0] - plane.base_m)));
+      break;
+    }
+    add((west + south.row_height) - (load(s) - plane.base_m),
+        (east + south.row_height) - (load(s + 1) - plane.base_m),
+        (east + north.row_height) - (load(n + 1) - plane.base_m),
+        (west + north.row_height) - (load(n) - plane.base_m));
   }
   cell_squares_ = squares;
   cell_absolutes_ = absolutes;
@@ -68,8 +74,11 @@ void PieceSums::flush_triangles() {
     const Pair b = load(&b_[k]);
     const Pair c = load(&c_[k]);
     const Pair weight = load(&twice_area_[k]);
-    squares += weight * square_term(a, b, c);
-    absolutes += weight * absolute_term(a, b, c, a + b + c);
+    const Pair sum = a + b + c;
+    const Pair low = lesser(a, b);
+    const Pair high = greater(a, b);
+    squares += weight * square_term(a, b, c, sum);
+    absolutes += weight * absolute_term(lesser(low, c), greater(low, lesser(high, c)), greater(high, c), sum);
     areas += weight;
   }
   for (const std::size_t lane : {0, 1}) {

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace plumbline::oracle::detail {
 
@@ -21,31 +23,34 @@ inline Pair load(const double* two) {
   return pair;
 }
 
-/// 12/(2A) · ∫e² over a triangle of area A on which e is linear with corner values a, b, c.
-inline Pair square_term(Pair a, Pair b, Pair c) {
-  const Pair sum = a + b + c;
+inline Pair lesser(Pair a, Pair b) { return a < b ? a : b; }
+inline Pair greater(Pair a, Pair b) { return a > b ? a : b; }
+/// The sign bit where `value` is negative, 0 elsewhere; flips signs by exclusive or.
+using PairBits = decltype(Pair{} < Pair{});
+inline PairBits flip_where_negative(Pair value) {
+  return (value < 0) &
+         PairBits{std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::min()};
+}
+inline Pair flipped(Pair value, PairBits flip) {
+  return reinterpret_cast<Pair>(reinterpret_cast<PairBits>(value) ^ flip);
+}
+
+/// 12/(2A) · ∫e² over a triangle of area A on which e is linear with corner values a, b, c; `sum` = a + b +
+/// c.
+inline Pair square_term(Pair a, Pair b, Pair c, Pair sum) {
   return 0.5 * (sum * sum + (a * a + b * b + c * c));
 }
 
-inline Pair lesser(Pair a, Pair b) { return a < b ? a : b; }
-inline Pair greater(Pair a, Pair b) { return a > b ? a : b; }
-
-/// 6/(2A) · ∫|e| over the same triangle; `sum` = a + b + c. Turn signs so that the middle value is not negative. If the
-/// lowest, m, then is, the line e = 0 cuts off a similar cap at that corner with area share m/(m−p) · m/(m−q), whose
-/// integral changes sign: sum − 2m · m²/((m−p)(m−q)). Without branches: signs change in a third of all cells, at random.
-inline Pair absolute_term(Pair a, Pair b, Pair c, Pair sum) {
+/// 6/(2A) · ∫|e| over the same triangle, from its corner values in order. Flip signs so that the middle value
+/// is not negative. If the lowest, m, then is, the line e = 0 cuts off a similar cap at that corner with area
+/// share m/(m−p) · m/(m−q), whose integral changes sign: sum − 2m · m²/((m−p)(m−q)). Without branches: signs
+/// change in a third of all cells, at random.
+inline Pair absolute_term(Pair low, Pair middle, Pair high, Pair sum) {
   constexpr double kNeverZero = 0x1p-1000;  // for m = 0; m² does not exceed the divisor otherwise
-  const Pair ab_low = lesser(a, b);
-  const Pair ab_high = greater(a, b);
-  const Pair low = lesser(ab_low, c);
-  const Pair high = greater(ab_high, c);
-  const Pair middle = greater(ab_low, lesser(ab_high, c));
-  const Pair zero{};
-  const auto turned = middle < zero;
-  const Pair cap = lesser(turned ? -high : low, zero);
-  const Pair total = turned ? -sum : sum;
-  const Pair divisor = greater((greater(middle, -middle) - cap) * (high - low), zero + kNeverZero);
-  return total - 2 * cap * (cap * cap / divisor);
+  const PairBits flip = flip_where_negative(middle);
+  const Pair cap = lesser(flipped(middle < 0 ? high : low, flip), Pair{});
+  const Pair divisor = greater((flipped(middle, flip) - cap) * (high - low), Pair{} + kNeverZero);
+  return flipped(sum, flip) - (cap + cap) * (cap * cap / divisor);
 }
 
 /// Neumaier's compensated sum: the order of the terms matters only beyond the last bit or so.
@@ -62,13 +67,21 @@ class CompensatedSum {
   double sum_ = 0, carry_ = 0;
 };
 
-/// A mesh triangle's plane over one row of samples: height − base_m = by_x · x + row_height.
-/// Errors are differences of heights over base_m, so that they keep their digits far above sea level.
+/// A mesh triangle's plane: its height over `base_m` is by_x · x + by_y · y + constant, at columns and rows
+/// from an origin. Errors are differences of heights over base_m, so that they keep their digits far above
+/// sea level.
+struct Plane {
+  double base_m = 0, by_x = 0, by_y = 0, constant = 0;
+};
+
+/// The plane over one row of samples.
 struct RowErrors {
   const double* heights = nullptr;
-  double base_m = 0, by_x = 0, row_height = 0;
+  double row_height = 0;  ///< of the plane at column 0
 
-  [[nodiscard]] double at(int x) const { return (by_x * x + row_height) - (heights[x] - base_m); }
+  [[nodiscard]] double at(const Plane& plane, int x) const {
+    return (plane.by_x * x + row_height) - (heights[x] - plane.base_m);
+  }
 };
 
 /// Sums of ∫e² and ∫|e|, and the area. Lengths in plan are in cells. The order of summation is written out
@@ -77,7 +90,7 @@ class PieceSums {
  public:
   /// Whole cells x … x + count − 1 between two rows of one plane. Returns the greatest |e| among their
   /// samples.
-  double add_cells(const RowErrors& south, const RowErrors& north, int x, int count);
+  double add_cells(const Plane& plane, const RowErrors& south, const RowErrors& north, int x, int count);
   /// A triangle with errors a, b, c at its corners.
   void add_triangle(double a, double b, double c, double twice_area) {
     a_[waiting_] = a;
