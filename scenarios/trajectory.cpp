@@ -33,8 +33,9 @@ struct Scene {
     return {x, y, ground_m(x, y) + height_m};
   }
   [[nodiscard]] Vec3 middle() const { return on_ground(width_m / 2, depth_m / 2); }
+  // Nearer than a few samples, a picture shows how single cells are split, and little else.
   [[nodiscard]] double height_or(double share) const {
-    return spec.height_m > 0 ? spec.height_m : share * side_m;
+    return spec.height_m > 0 ? spec.height_m : std::max(share * side_m, 4 * terrain.spacing_m);
   }
   [[nodiscard]] double distance_or(double share) const {
     return spec.distance_m > 0 ? spec.distance_m : share * side_m;

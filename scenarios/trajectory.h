@@ -24,9 +24,9 @@ struct TrajectorySpec {
   std::string id;
   std::string kind;  ///< approach, retreat, orbit, skim, spin, nadir, teleport, hover, poses
   int frames = 0;    ///< absent for `poses`: one frame a pose
-  /// approach, retreat: above the ground at the near end (0.02 L); skim (0.005 L), spin (0.06 L), hover (0.08
-  /// L): above the ground below; orbit: above the highest ground on the way (0.2 L); nadir: above the highest
-  /// sample (0.4 L).
+  /// approach, retreat: above the ground at the near end (0.02 L); skim (0.005 L), spin (0.06 L), hover
+  /// (0.08 L): above the ground below; orbit: above the highest ground on the way (0.2 L); nadir: above the
+  /// highest sample (0.4 L). Defaults are never below four sample spacings.
   double height_m = 0;
   double distance_m = 0;   ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L)
   double jitter_px = 0;    ///< hover: amplitude of the motion, as it shows in the picture's middle (0.5 px)

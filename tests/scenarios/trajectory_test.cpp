@@ -67,8 +67,8 @@ TEST(Trajectories, EveryKindStaysAboveEveryGround) {
 }
 
 const std::map<std::string, std::uint64_t> kGolden{
-    {"approach", 0xef45e38f64fb45a5}, {"retreat", 0xa79030336a00d3dd}, {"orbit", 0x70b4681f59ff8150},
-    {"skim", 0x269c527e6e098d8e},     {"spin", 0xe494d8e8a051e32a},    {"nadir", 0x8666943e97e27b9f},
+    {"approach", 0x6c5b505534441177}, {"retreat", 0x86db3bd9fe4a3f9f}, {"orbit", 0x70b4681f59ff8150},
+    {"skim", 0x1d9b8cb1453cb879},     {"spin", 0xb3a2b7255eb84be6},    {"nadir", 0x8666943e97e27b9f},
     {"teleport", 0x7316e8686d310235}, {"hover", 0xb536374f4f1876a6},   {"poses", 0x2c77eaf7643abcb9},
 };
 
