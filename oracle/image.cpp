@@ -57,6 +57,21 @@ class SeenSurface {
     p.z = state_.plan_index().nearest(*state_.mesh, {p.x, p.y}, p.z).value_or(p.z);
     return p;
   }
+  /// Asks for the memory that the points some pixels further on will need: a reference of millions of
+  /// triangles does not fit a cache, and neighbouring pixels see triangles of different rows.
+  void fetch_ahead(std::size_t pixel) const {
+    constexpr std::size_t kTriangle = 24, kCorners = 12;  // pixels ahead
+    const std::vector<std::uint32_t>& seen = hits_.triangle;
+    if (pixel + kTriangle >= seen.size()) return;
+    if (seen[pixel + kTriangle] != PixelHits::kNoHit) {
+      __builtin_prefetch(&state_.mesh->triangles[seen[pixel + kTriangle]]);
+    }
+    if (seen[pixel + kCorners] != PixelHits::kNoHit) {
+      for (const std::uint32_t v : state_.mesh->triangles[seen[pixel + kCorners]]) {
+        __builtin_prefetch(&state_.mesh->positions[v]);
+      }
+    }
+  }
   [[nodiscard]] const View& view() const { return view_; }
   [[nodiscard]] const PixelHits& hits() const { return hits_; }
 
@@ -80,6 +95,7 @@ void for_each_displacement(const SeenSurface& seen, const RaySurface& other, Jud
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t pixel = y * width + x;
+      seen.fetch_ahead(pixel);
       if (seen.hits().triangle[pixel] == PixelHits::kNoHit) continue;
       const Vec3 point = seen.point(x, y, pixel);
       if (!(seen.view().local(point).z > 0)) continue;

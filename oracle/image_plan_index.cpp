@@ -27,11 +27,6 @@ constexpr double kEntriesTop = 12, kEntriesFiner = 5, kEntriesWhole = 40;
 /// Cells with more triangles than this are not looked into for a proof that they are covered once.
 constexpr std::size_t kMostProved = 24;
 
-Vec2 plan(Vec3 p) { return {p.x, p.y}; }
-
-/// Twice the signed area of (a, b, p), exactly antisymmetric in a and b.
-double edge_value(Vec2 a, Vec2 b, Vec2 p) { return (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x); }
-
 /// Height over a point that lies on the edge between a and b: the same for (b, a).
 double height_on_edge(Vec3 a, Vec3 b, Vec2 p) {
   if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
@@ -39,30 +34,6 @@ double height_on_edge(Vec3 a, Vec3 b, Vec2 p) {
   const double dy = b.y - a.y;
   const double share = ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy);
   return a.z + std::clamp(share, 0.0, 1.0) * (b.z - a.z);
-}
-
-struct WeightedCorner {
-  double weight;
-  const Vec3& corner;
-};
-
-/// Height over a point inside a triangle, from its barycentric weights. Begins with the westmost corner (the
-/// southmost of two) and goes on to the other two in that order, so that the bits do not depend on how the
-/// triangle is listed.
-double height_inside(WeightedCorner a, WeightedCorner b, WeightedCorner c) {
-  const WeightedCorner* first = &a;
-  const WeightedCorner* second = &b;
-  const WeightedCorner* third = &c;
-  const auto before = [](const WeightedCorner* p, const WeightedCorner* q) {
-    return p->corner.x != q->corner.x ? p->corner.x < q->corner.x : p->corner.y < q->corner.y;
-  };
-  if (before(second, first)) std::swap(first, second);
-  if (before(third, second)) std::swap(second, third);
-  if (before(second, first)) std::swap(first, second);
-  const double area = (first->weight + second->weight) + third->weight;
-  const double rise = second->weight * (second->corner.z - first->corner.z) +
-                      third->weight * (third->corner.z - first->corner.z);
-  return first->corner.z + rise / area;
 }
 
 bool usable_triangle(std::span<const std::uint8_t> usable, std::size_t t) {
@@ -131,16 +102,10 @@ bool covered_once(const Mesh& mesh, std::span<const std::uint32_t> run, Vec2 low
 
 }  // namespace
 
-std::optional<double> height_over(Vec3 a, Vec3 b, Vec3 c, Vec2 p) {
-  const double ea = edge_value(plan(b), plan(c), p);
-  const double eb = edge_value(plan(c), plan(a), p);
-  const double ec = edge_value(plan(a), plan(b), p);
-  if (!((ea >= 0 && eb >= 0 && ec >= 0) || (ea <= 0 && eb <= 0 && ec <= 0))) return std::nullopt;
-  const double area = (ea + eb) + ec;
-  if (area == 0 || !std::isfinite(area)) return std::nullopt;
-  if (ea != 0 && eb != 0 && ec != 0) return height_inside({ea, a}, {eb, b}, {ec, c});
-  for (const Vec3& corner : {a, b, c}) {
-    if (corner.x == p.x && corner.y == p.y) return corner.z;
+std::optional<double> height_on_rim(const Vec3& a, const Vec3& b, const Vec3& c, Vec2 p, double ea,
+                                    double eb) {
+  for (const Vec3* corner : {&a, &b, &c}) {
+    if (corner->x == p.x && corner->y == p.y) return corner->z;
   }
   if (ea == 0) return height_on_edge(b, c, p);
   return eb == 0 ? height_on_edge(c, a, p) : height_on_edge(a, b, p);

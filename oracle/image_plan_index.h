@@ -2,21 +2,64 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "scenarios/mesh.h"
 
 namespace plumbline::oracle {
 
+inline Vec2 plan(const Vec3& p) { return {p.x, p.y}; }
+
+/// Twice the signed area of (a, b, p), exactly antisymmetric in a and b.
+inline double edge_value(Vec2 a, Vec2 b, Vec2 p) {
+  return (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+}
+
+struct WeightedCorner {
+  double weight;
+  const Vec3* corner;
+};
+
+/// Height over a point inside a triangle, from its barycentric weights. Begins with the westmost corner (the
+/// southmost of two) and goes on to the other two in that order, so that the bits do not depend on how the
+/// triangle is listed.
+inline double height_inside(WeightedCorner first, WeightedCorner second, WeightedCorner third) {
+  const auto before = [](const WeightedCorner& p, const WeightedCorner& q) {
+    return p.corner->x != q.corner->x ? p.corner->x < q.corner->x : p.corner->y < q.corner->y;
+  };
+  if (before(second, first)) std::swap(first, second);
+  if (before(third, second)) std::swap(second, third);
+  if (before(second, first)) std::swap(first, second);
+  const double area = (first.weight + second.weight) + third.weight;
+  const double rise = second.weight * (second.corner->z - first.corner->z) +
+                      third.weight * (third.corner->z - first.corner->z);
+  return first.corner->z + rise / area;
+}
+
+/// Height over a point on an edge or corner of the triangle; ea, eb: its edge values opposite to a and b.
+std::optional<double> height_on_rim(const Vec3& a, const Vec3& b, const Vec3& c, Vec2 p, double ea,
+                                    double eb);
+
 /// Height of triangle (a, b, c) over plan point p, metres; nothing where the closed triangle does not lie
 /// over p or has no plan area. Decided in double by edge functions that are equal and opposite on the two
 /// sides of an edge; on an edge and on a corner the height is a function of that edge or corner alone. So in
 /// a mesh without cracks all triangles over p give the same bits.
-std::optional<double> height_over(Vec3 a, Vec3 b, Vec3 c, Vec2 p);
+inline std::optional<double> height_over(const Vec3& a, const Vec3& b, const Vec3& c, Vec2 p) {
+  const double ea = edge_value(plan(b), plan(c), p);
+  const double eb = edge_value(plan(c), plan(a), p);
+  const double ec = edge_value(plan(a), plan(b), p);
+  if (!((ea >= 0 && eb >= 0 && ec >= 0) || (ea <= 0 && eb <= 0 && ec <= 0))) return std::nullopt;
+  const double area = (ea + eb) + ec;
+  if (area == 0 || !std::isfinite(area)) return std::nullopt;
+  if (ea != 0 && eb != 0 && ec != 0) return height_inside({ea, &a}, {eb, &b}, {ec, &c});
+  return height_on_rim(a, b, c, p, ea, eb);
+}
 
 /// A mesh's triangles by their place in plan: a grid whose crowded cells are grids in turn, so that a mesh
 /// that is fine near the camera and coarse elsewhere needs few tests a look-up. Makes no assumption on the
