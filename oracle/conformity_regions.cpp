@@ -17,6 +17,8 @@
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include "oracle/conformity_parts.h"
 #include "oracle/predicates.h"
@@ -48,16 +50,17 @@ struct FaceLabel {
   std::uint32_t region = kNone;
 };
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using SegmentTraits = CGAL::Arr_segment_traits_2<Kernel>;
+/// Exact by lazy evaluation: intervals first, rationals where those cannot tell.
+using LazyKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+/// Rationals throughout. CGAL 5.5's lazy constructions fail where a product overflows the intervals.
+using RationalKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+/// Coordinates within 2^±kLazyExponent (or zero): products of three of them and their errors stay normal
+/// doubles.
+constexpr int kLazyExponent = 300;
+
 struct KeepFirst {  // pieces never overlap, so nothing is ever merged
   std::uint32_t operator()(std::uint32_t a, std::uint32_t) const { return a; }
 };
-using Traits = CGAL::Arr_curve_data_traits_2<SegmentTraits, std::uint32_t, KeepFirst>;
-using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, FaceLabel>>;
-using Halfedge = Arrangement::Halfedge_handle;
-using Face = Arrangement::Face_handle;
-
 /// One region while it is put together.
 struct Region {
   Fault fault = Fault::none;
@@ -80,7 +83,15 @@ double signed_area_m2(const std::vector<Vec2>& loop) {
   return 0.5 * twice;
 }
 
+template <typename Kernel>
 class RegionFinder {
+  using SegmentTraits = CGAL::Arr_segment_traits_2<Kernel>;
+  using Traits = CGAL::Arr_curve_data_traits_2<SegmentTraits, std::uint32_t, KeepFirst>;
+  using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, FaceLabel>>;
+  using Curve = typename Traits::X_monotone_curve_2;
+  using Halfedge = typename Arrangement::Halfedge_handle;
+  using Face = typename Arrangement::Face_handle;
+
  public:
   RegionFinder(const Mesh& mesh, const Residual& residual, std::vector<Finding>& findings)
       : mesh_(mesh), residual_(residual), findings_(findings), outline_(promised_sides(residual)) {}
@@ -133,11 +144,11 @@ class RegionFinder {
   void arrange() {
     points_.reserve(residual_.points.size());
     for (const Vec2 p : residual_.points) points_.emplace_back(p.x, p.y);
-    std::vector<Traits::X_monotone_curve_2> curves;
+    std::vector<Curve> curves;
     curves.reserve(residual_.segments.size());
     for (std::uint32_t i = 0; i < residual_.segments.size(); ++i) {
       const ResidualSegment& s = residual_.segments[i];
-      curves.emplace_back(SegmentTraits::X_monotone_curve_2(points_[s.from], points_[s.to]), i);
+      curves.emplace_back(typename SegmentTraits::X_monotone_curve_2(points_[s.from], points_[s.to]), i);
     }
     CGAL::insert(arrangement_, curves.begin(), curves.end());
   }
@@ -146,7 +157,7 @@ class RegionFinder {
 
   template <typename Visit>
   static void each_edge_of(Face face, Visit&& visit) {
-    const auto walk = [&visit](Arrangement::Ccb_halfedge_circulator start) {
+    const auto walk = [&visit](typename Arrangement::Ccb_halfedge_circulator start) {
       auto edge = start;
       do visit(Halfedge(edge));
       while (++edge != start);
@@ -242,8 +253,7 @@ class RegionFinder {
       Halfedge edge = start;
       do {
         walked[edge] = true;
-        const auto& p = edge->target()->point();
-        loop.push_back({to_double(p.x()), to_double(p.y())});
+        loop.push_back(end_of(edge));
         if (region.fault == Fault::extra || region.fault == Fault::missing)
           measure(edge, loop.back(), region);
         edge = edge->next();
@@ -259,7 +269,20 @@ class RegionFinder {
     }
   }
 
-  static double to_double(const Kernel::FT& x) { return CGAL::to_double(x.exact()); }
+  /// Evaluates lazy numbers fully first: their interval's middle would depend on what was asked of them
+  /// before.
+  static double to_double(const LazyKernel::FT& x) { return CGAL::to_double(x.exact()); }
+  static double to_double(const RationalKernel::FT& x) { return CGAL::to_double(x); }
+
+  /// The plan point where an edge ends: the given doubles, or the rounded crossing of two pieces.
+  Vec2 end_of(Halfedge edge) const {
+    const auto& p = edge->target()->point();
+    const ResidualSegment& s = segment(edge);
+    for (const std::uint32_t end : {s.from, s.to}) {
+      if (points_[end] == p) return residual_.points[end];
+    }
+    return {to_double(p.x()), to_double(p.y())};
+  }
 
   void measure(Halfedge edge, Vec2 corner, Region& region) const {
     if (segment(edge).promised != 0 || segment(edge->next()).promised != 0) return;  // on the outline
@@ -337,7 +360,7 @@ class RegionFinder {
   const Residual& residual_;
   std::vector<Finding>& findings_;
   SegmentTree outline_;
-  std::vector<Kernel::Point_2> points_;
+  std::vector<typename Kernel::Point_2> points_;
   Arrangement arrangement_;
   std::vector<Region> regions_;
 };
@@ -345,7 +368,15 @@ class RegionFinder {
 }  // namespace
 
 void find_regions(const Mesh& mesh, const Residual& residual, std::vector<Finding>& findings) {
-  RegionFinder(mesh, residual, findings).find();
+  const bool moderate = std::all_of(residual.points.begin(), residual.points.end(), [](Vec2 p) {
+    const auto fits = [](double c) { return c == 0 || std::abs(std::ilogb(c)) <= kLazyExponent; };
+    return fits(p.x) && fits(p.y);
+  });
+  if (moderate) {
+    RegionFinder<LazyKernel>(mesh, residual, findings).find();
+  } else {
+    RegionFinder<RationalKernel>(mesh, residual, findings).find();
+  }
 }
 
 }  // namespace plumbline::oracle::detail
