@@ -46,11 +46,11 @@ struct Overlay::Strip {
 
 namespace {
 
-/// A half's corners in cells from its cell's south-west corner, counter-clockwise.
-struct HalfCorners {
-  std::array<int, 3> x, y;
-};
-constexpr std::array<HalfCorners, 2> kCorners{{{{0, 1, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 1}}}};
+/// A cell's samples counter-clockwise from the south-west, and the halves' corners among them.
+constexpr std::array<int, 4> kSampleX{0, 1, 1, 0};
+constexpr std::array<int, 4> kSampleY{0, 0, 1, 1};
+constexpr std::array<std::size_t, 3> kSoutheast{0, 1, 2};
+constexpr std::array<std::size_t, 3> kNorthwest{0, 2, 3};
 
 /// A corner's cells: west … east along its row, and the rows of cells that it belongs to.
 struct CornerCells {
@@ -255,150 +255,127 @@ void Overlay::judge_rows(const GridTriangle& triangle) {
 void Overlay::judge_strip(const Strip& strip) {
   const Row& south = strip.south;
   const Row& north = strip.north;
-  // Halves with all three samples inside the triangle.
-  const bool crossed = south.meets && north.meets;
-  const int southeast_first = std::max(south.first, north.first - 1);
-  const int southeast_last = crossed ? std::min(south.last, north.last) - 1 : southeast_first - 1;
-  const int northwest_first = std::max(south.first, north.first);
-  const int northwest_last = crossed ? std::min(south.last, north.last - 1) : northwest_first - 1;
-
-  // They overlap but for their ends, so first whole cells, then the ends.
-  const int cell_first = northwest_first;
-  const int cell_last = std::min(southeast_last, northwest_last);
-  if (cell_first <= cell_last) {
-    const double most =
-        sums_.add_cells(strip.plane, south.errors, north.errors, cell_first, cell_last - cell_first + 1);
-    if (most >= certain_peak_.value) visit_cells(strip, cell_first, cell_last, most);
+  // Cells with all four samples inside the triangle.
+  const int first = std::max(south.first, north.first);
+  const int last = std::min(south.last, north.last) - 1;
+  if (first > last || !south.meets || !north.meets) {
+    return judge_cells(strip, strip.first_cell, strip.last_cell, 0b111);
   }
-  const auto judge_rest = [&](Half half, int whole_first, int whole_last) {
-    if (whole_first > whole_last) {
-      return judge_halves(strip, half, strip.first_cell, strip.last_cell, 0b111);
-    }
-    // West of a whole half, an edge that faces east has all samples inside: only edges that face west can
-    // cut.
-    judge_halves(strip, half, strip.first_cell, whole_first - 1, strip.west_edges);
-    if (cell_first <= cell_last) {
-      for (int x = whole_first; x < cell_first; ++x) add_half(strip, half, x);
-      for (int x = cell_last + 1; x <= whole_last; ++x) add_half(strip, half, x);
-    } else {
-      for (int x = whole_first; x <= whole_last; ++x) add_half(strip, half, x);
-    }
-    judge_halves(strip, half, whole_last + 1, strip.last_cell, strip.east_edges);
-  };
-  judge_rest(Half::southeast, southeast_first, southeast_last);
-  judge_rest(Half::northwest, northwest_first, northwest_last);
+  const double most = sums_.add_cells(strip.plane, south.errors, north.errors, first, last - first + 1);
+  if (most >= certain_peak_.value) visit_samples(strip, first, last + 1, most);
+  // West of a whole cell, an edge that faces east has all samples inside: only edges that face west can cut.
+  judge_cells(strip, strip.first_cell, first - 1, strip.west_edges);
+  judge_cells(strip, last + 1, strip.last_cell, strip.east_edges);
 }
 
-/// Finds where among whole cells the greatest error stands.
-void Overlay::visit_cells(const Strip& strip, int first, int last, double most) {
-  for (const Row* row : {&strip.south, &strip.north}) {
-    if (!certain_peak_.admits(most, strip.origin_x + first, strip.origin_y + row->y) &&
-        !peak_.admits(most, strip.origin_x + first, strip.origin_y + row->y)) {
-      continue;
-    }
-    for (int x = first; x <= last + 1; ++x) {
-      if (std::fabs(row->errors.at(strip.plane, x)) == most) {
-        visit_everywhere(most, strip.origin_x + x, strip.origin_y + row->y);
-        break;
-      }
-    }
-  }
-}
-
-/// A half cell that lies wholly inside the triangle.
-void Overlay::add_half(const Strip& strip, Half half, int x) {
-  const HalfCorners& corner = kCorners[half == Half::southeast ? 0 : 1];
-  std::array<double, 3> error{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Row& row = corner.y[k] == 0 ? strip.south : strip.north;
-    error[k] = row.errors.at(strip.plane, x + corner.x[k]);
-    visit_everywhere(error[k], strip.origin_x + x + corner.x[k], strip.origin_y + row.y);
-  }
-  sums_.add_triangle(error[0], error[1], error[2], 1);
-}
-
-/// Halves that some edge of the mask may cut.
-void Overlay::judge_halves(const Strip& strip, Half half, int first, int last, unsigned edge_mask) {
-  const HalfCorners& corner = kCorners[half == Half::southeast ? 0 : 1];
+/// Cells that some edge of the mask may cut.
+void Overlay::judge_cells(const Strip& strip, int first, int last, unsigned edge_mask) {
   for (int x = first; x <= last; ++x) {
-    std::array<double, 3> cutting{};
-    int cuts = 0;
-    bool outside = false;
-    for (unsigned k = 0; k < 3; ++k) {
-      if ((edge_mask >> k & 1u) == 0) continue;
-      const Edge& edge = strip.edges[k];
-      std::array<double, 3> distance{};
-      bool some_inside = false, some_outside = false;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Row& row = corner.y[c] == 0 ? strip.south : strip.north;
-        const double d = edge.by_x * (x + corner.x[c]) + row.base[k];
-        distance[c] = std::fabs(d) <= edge.noise ? 0.0 : d;
-        some_inside |= distance[c] > 0;
-        some_outside |= distance[c] < 0;
-      }
-      outside |= !some_inside;  // its closure belongs to other halves: it has no area here
-      if (some_outside) {
-        cutting = distance;
-        ++cuts;
-      }
-    }
-    if (outside) continue;
-    if (cuts == 0) {
-      add_half(strip, half, x);
-    } else if (cuts == 1) {
-      cut_by_one(strip, half, x, cutting);
-    } else {
-      clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
-    }
+    const CellErrors errors{strip.south.errors.at(strip.plane, x), strip.south.errors.at(strip.plane, x + 1),
+                            strip.north.errors.at(strip.plane, x + 1), strip.north.errors.at(strip.plane, x)};
+    judge_half(strip, errors, Half::southeast, x, edge_mask);
+    judge_half(strip, errors, Half::northwest, x, edge_mask);
+  }
+}
+
+inline void Overlay::judge_half(const Strip& strip, const CellErrors& errors, Half half, int x,
+                                unsigned edge_mask) {
+  const bool southeast = half == Half::southeast;
+  std::array<double, 3> cutting{};
+  int cuts = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if ((edge_mask >> k & 1u) == 0) continue;
+    const Edge& edge = strip.edges[k];
+    const auto snapped = [&](double d) { return std::fabs(d) <= edge.noise ? 0.0 : d; };
+    const double west = edge.by_x * x;
+    const double east = edge.by_x * (x + 1);
+    const double base_south = strip.south.base[k];
+    const double base_north = strip.north.base[k];
+    const std::array<double, 3> distance{snapped(west + base_south),
+                                         snapped(southeast ? east + base_south : east + base_north),
+                                         snapped(southeast ? east + base_north : west + base_north)};
+    const double least = std::min(std::min(distance[0], distance[1]), distance[2]);
+    if (least >= 0) continue;
+    // No area inside: what the triangle touches here is the rim of other halves.
+    if (std::max(std::max(distance[0], distance[1]), distance[2]) <= 0) return;
+    cutting = distance;
+    ++cuts;
+  }
+  if (cuts == 1) return cut_by_one(strip, errors, half, x, cutting);
+  if (cuts > 1) return clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
+  const double middle = southeast ? errors[1] : errors[3];
+  sums_.add_triangle(errors[0], middle, errors[2], 1);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{2}, southeast ? std::size_t{1} : std::size_t{3}}) {
+    visit_sample(strip, x, k, errors[k]);
   }
 }
 
 /// A half cell cut by one line, with corners on both sides. With d the corners' distances to the line, it
 /// crosses the side from p to q at the share d_p/(d_p − d_q), and the error there follows, being linear over
 /// the half.
-void Overlay::cut_by_one(const Strip& strip, Half half, int x, const std::array<double, 3>& distance) {
-  const HalfCorners& corner = kCorners[half == Half::southeast ? 0 : 1];
-  std::array<double, 3> error{};
+inline void Overlay::cut_by_one(const Strip& strip, const CellErrors& errors, Half half, int x,
+                                const std::array<double, 3>& distance) {
+  const std::array<std::size_t, 3>& sample = half == Half::southeast ? kSoutheast : kNorthwest;
   int inside = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Row& row = corner.y[k] == 0 ? strip.south : strip.north;
-    error[k] = row.errors.at(strip.plane, x + corner.x[k]);
-    if (distance[k] >= 0)
-      visit_everywhere(error[k], strip.origin_x + x + corner.x[k], strip.origin_y + row.y);
+    if (distance[k] >= 0) visit_sample(strip, x, sample[k], errors[sample[k]]);
     inside += distance[k] > 0 ? 1 : 0;
   }
-
   // `apex` stands alone strictly on its side of the line; p and q follow it counter-clockwise.
   const bool apex_inside = inside == 1;
   std::size_t apex = 0;
   while (apex_inside ? distance[apex] <= 0 : distance[apex] >= 0) ++apex;
-  const std::size_t p = (apex + 1) % 3;
-  const std::size_t q = (apex + 2) % 3;
+  const std::size_t p = apex == 2 ? 0 : apex + 1;
+  const std::size_t q = apex == 0 ? 2 : apex - 1;
+  const double error = errors[sample[apex]];
   const double to_p = distance[apex] / (distance[apex] - distance[p]);
   const double to_q = distance[apex] / (distance[apex] - distance[q]);
-  const double at_p = error[apex] + to_p * (error[p] - error[apex]);
-  const double at_q = error[apex] + to_q * (error[q] - error[apex]);
+  const double at_p = error + to_p * (errors[sample[p]] - error);
+  const double at_q = error + to_q * (errors[sample[q]] - error);
   if (apex_inside) {
-    sums_.add_triangle(error[apex], at_p, at_q, to_p * to_q);
+    sums_.add_triangle(error, at_p, at_q, to_p * to_q);
   } else {
-    sums_.add_triangle(error[p], error[q], at_q, 1 - to_q);
-    sums_.add_triangle(error[p], at_q, at_p, to_q * (1 - to_p));
+    sums_.add_triangle(errors[sample[p]], errors[sample[q]], at_q, 1 - to_q);
+    sums_.add_triangle(errors[sample[p]], at_q, at_p, to_q * (1 - to_p));
   }
+  if (std::fabs(at_p) >= certain_peak_.value) visit_crossing(strip, x, sample[apex], sample[p], at_p, to_p);
+  if (std::fabs(at_q) >= certain_peak_.value) visit_crossing(strip, x, sample[apex], sample[q], at_q, to_q);
+}
 
-  const auto visit = [&](double crossing_error, std::size_t to, double share) {
-    if (std::fabs(crossing_error) < certain_peak_.value) return;
-    const int along_x = corner.x[to] - corner.x[apex];
-    const int along_y = corner.y[to] - corner.y[apex];
-    const double at_x = strip.origin_x + (x + (corner.x[apex] + share * along_x));
-    const double at_y = strip.origin_y + (strip.south.y + (corner.y[apex] + share * along_y));
-    if (along_x != 0 && along_y != 0) {
-      visit_declared(crossing_error, at_x, at_y);
-    } else {
-      visit_everywhere(crossing_error, at_x, at_y);
+inline void Overlay::visit_sample(const Strip& strip, int x, std::size_t sample, double error) {
+  if (std::fabs(error) < certain_peak_.value) return;
+  visit_everywhere(error, strip.origin_x + x + kSampleX[sample],
+                   strip.origin_y + strip.south.y + kSampleY[sample]);
+}
+
+/// A mesh edge crosses the side between two samples of a cell, at this share of the way.
+void Overlay::visit_crossing(const Strip& strip, int x, std::size_t from, std::size_t to, double error,
+                             double share) {
+  const int along_x = kSampleX[to] - kSampleX[from];
+  const int along_y = kSampleY[to] - kSampleY[from];
+  const double at_x = strip.origin_x + (x + (kSampleX[from] + share * along_x));
+  const double at_y = strip.origin_y + (strip.south.y + (kSampleY[from] + share * along_y));
+  if (along_x != 0 && along_y != 0) {
+    visit_declared(error, at_x, at_y);
+  } else {
+    visit_everywhere(error, at_x, at_y);
+  }
+}
+
+/// Finds where among the samples first … last of both rows the greatest error stands.
+void Overlay::visit_samples(const Strip& strip, int first, int last, double most) {
+  for (const Row* row : {&strip.south, &strip.north}) {
+    const double at_y = strip.origin_y + row->y;
+    if (!certain_peak_.admits(most, strip.origin_x + first, at_y) &&
+        !peak_.admits(most, strip.origin_x + first, at_y)) {
+      continue;
     }
-  };
-  visit(at_p, p, to_p);
-  visit(at_q, q, to_q);
+    for (int x = first; x <= last; ++x) {
+      if (std::fabs(row->errors.at(strip.plane, x)) != most) continue;
+      visit_everywhere(most, strip.origin_x + x, at_y);
+      break;
+    }
+  }
 }
 
 }  // namespace plumbline::oracle::detail

@@ -43,6 +43,7 @@ class Overlay {
   struct Edge;
   struct Row;
   struct Strip;
+  using CellErrors = std::array<double, 4>;  ///< at the south-west, south-east, north-east, north-west sample
   enum class Half { southeast, northwest };
 
   // vertical_overlay.cpp: triangles at least an eighth of a cell high, row by row.
@@ -52,10 +53,14 @@ class Overlay {
   bool judge_one_cell(const GridTriangle& triangle);
   void judge_rows(const GridTriangle& triangle);
   void judge_strip(const Strip& strip);
-  void judge_halves(const Strip& strip, Half half, int first, int last, unsigned edge_mask);
-  void add_half(const Strip& strip, Half half, int x);
-  void visit_cells(const Strip& strip, int first, int last, double most);
-  void cut_by_one(const Strip& strip, Half half, int x, const std::array<double, 3>& distance);
+  void judge_cells(const Strip& strip, int first, int last, unsigned edge_mask);
+  void judge_half(const Strip& strip, const CellErrors& errors, Half half, int x, unsigned edge_mask);
+  void cut_by_one(const Strip& strip, const CellErrors& errors, Half half, int x,
+                  const std::array<double, 3>& distance);
+  void visit_samples(const Strip& strip, int first, int last, double most);
+  void visit_sample(const Strip& strip, int x, std::size_t sample, double error);
+  void visit_crossing(const Strip& strip, int x, std::size_t from, std::size_t to, double error,
+                      double share);
 
   // vertical_slivers.cpp: what is left: thin triangles, cells cut by two edges, corners between samples.
   void judge_corners(const GridTriangle& triangle);
