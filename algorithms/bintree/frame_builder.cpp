@@ -3,6 +3,7 @@
 #include "algorithms/bintree/frame_builder.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <tuple>
 
@@ -39,6 +40,24 @@ void FrameBuilder::emit(const RightTriangle& triangle) {
   frame_->mesh.triangles.push_back({apex, left, right});
 }
 
+bool FrameBuilder::is_corner(GridPoint p) const {
+  const std::size_t k = order_.index(p);
+  return slots_[k] >> 32 == stamp_ || std::binary_search(dropped_corners_.begin(), dropped_corners_.end(), k);
+}
+
+// What borders on a dropped triangle, drawn or dropped, may be finer than it. Along a diagonal its corners
+// need not lie exactly on one line, since i·spacing is rounded; so the domain's border goes through them.
+// Along rows and columns they do.
+void FrameBuilder::append_edge(GridPoint from, GridPoint to, std::vector<Vec2>& loop) const {
+  const bool diagonal = from.i != to.i && from.j != to.j;
+  if (diagonal && std::abs(to.i - from.i) > 1 && is_corner(midpoint(from, to))) {
+    append_edge(from, midpoint(from, to), loop);
+    append_edge(midpoint(from, to), to, loop);
+  } else {
+    loop.push_back(plan(from));
+  }
+}
+
 void FrameBuilder::finish() {
   if (frame_->mesh.triangles.empty()) return;
   frame_->domain = full_domain(*terrain_);
@@ -50,12 +69,24 @@ void FrameBuilder::finish() {
   };
   std::sort(dropped_.begin(), dropped_.end(),
             [&](const RightTriangle& a, const RightTriangle& b) { return key(a) < key(b); });
+  dropped_corners_.clear();
+  for (const RightTriangle& t : dropped_) {
+    for (const GridPoint p : {t.apex, t.left, t.right}) dropped_corners_.push_back(order_.index(p));
+  }
+  std::sort(dropped_corners_.begin(), dropped_corners_.end());
   for (std::size_t k = 0; k < dropped_.size(); ++k) {
     const RightTriangle& t = dropped_[k];
     const bool whole = k + 1 < dropped_.size() && dropped_[k + 1].split_node() == t.split_node();
-    std::vector<Vec2> hole{plan(t.apex), plan(t.right)};  // clockwise
-    if (whole) hole.push_back(plan(dropped_[++k].apex));
-    hole.push_back(plan(t.left));
+    std::vector<Vec2> hole;  // clockwise
+    append_edge(t.apex, t.right, hole);
+    if (whole) {
+      const GridPoint other_apex = dropped_[++k].apex;
+      append_edge(t.right, other_apex, hole);
+      append_edge(other_apex, t.left, hole);
+    } else {
+      append_edge(t.right, t.left, hole);
+    }
+    append_edge(t.left, t.apex, hole);
     frame_->domain.loops.push_back(std::move(hole));
   }
 }

@@ -30,6 +30,10 @@ class FrameBuilder {
 
  private:
   std::uint32_t vertex(GridPoint p);
+  /// Whether a sample is a corner of a drawn or of a dropped triangle.
+  [[nodiscard]] bool is_corner(GridPoint p) const;
+  /// Appends `from` and the corners inside the edge from there to `to`.
+  void append_edge(GridPoint from, GridPoint to, std::vector<Vec2>& loop) const;
   [[nodiscard]] Vec2 plan(GridPoint p) const {
     return {p.i * terrain_->spacing_m, p.j * terrain_->spacing_m};
   }
@@ -40,6 +44,7 @@ class FrameBuilder {
   LevelOrder order_;
   std::vector<std::uint64_t> slots_;  ///< in level order: stamp of its last use << 32 | vertex index
   std::vector<RightTriangle> dropped_;
+  std::vector<std::size_t> dropped_corners_;  ///< sorted, in level order
 };
 
 }  // namespace plumbline::bintree

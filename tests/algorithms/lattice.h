@@ -76,6 +76,9 @@ inline Faults look_at(const Terrain& terrain, const LodFrame& frame) {
 /// Twice the grid's area, in cells.
 inline long double_area(const Terrain& terrain) { return 2L * (terrain.columns - 1) * (terrain.rows - 1); }
 
+/// Room for the rounding of i·spacing in sums of cross products over a few hundred corners, in cells.
+inline constexpr double kAreaRoundingCells = 1e-9;
+
 /// Twice the area of a frame's promised domain, in cells (loops are signed).
 inline double double_area(const PlanDomain& domain, double spacing_m) {
   double sum = 0;

@@ -7,6 +7,7 @@
 #include "algorithms/bintree/cluster_grid.h"
 #include "algorithms/registry.h"
 #include "lattice.h"
+#include "oracle/conformity.h"
 
 namespace plumbline {
 namespace {
@@ -43,6 +44,7 @@ TEST(RestrictedQuadtree, AlwaysConformingOnAnyTerrain) {
         EXPECT_EQ(faults.inner_border, 0);
         EXPECT_EQ(faults.double_area, lattice::double_area(terrain));
         EXPECT_EQ(frame.domain.loops.size(), 1U);
+        EXPECT_TRUE(oracle::check_conformity(frame.mesh, frame.domain).clean());
         sizes.insert(frame.mesh.triangles.size());
       }
     }
@@ -173,7 +175,7 @@ TEST(RestrictedQuadtree, TheThresholdIsMonotone) {
 
 TEST(RestrictedQuadtree, CullingLeavesAConformingPart) {
   Random random(5);
-  const Terrain terrain = lattice::rough(33, 33, 9, 15);
+  const Terrain terrain = lattice::rough(33, 33, 9, 300, 23.7);
   const auto whole = prepared(terrain);
   const auto culling = prepared(terrain, {{"cull", true}});
   int smaller = 0;
@@ -184,7 +186,9 @@ TEST(RestrictedQuadtree, CullingLeavesAConformingPart) {
     const lattice::Faults faults = look_at(terrain, part);
     EXPECT_EQ(faults.t_junctions, 0);
     EXPECT_EQ(faults.doubled, 0);
-    EXPECT_DOUBLE_EQ(lattice::double_area(part.domain, 1), static_cast<double>(faults.double_area));
+    EXPECT_NEAR(lattice::double_area(part.domain, 23.7), static_cast<double>(faults.double_area),
+                lattice::kAreaRoundingCells);
+    EXPECT_TRUE(oracle::check_conformity(part.mesh, part.domain).clean());
     smaller += part.mesh.triangles.size() < all.mesh.triangles.size();
   }
   EXPECT_GT(smaller, 20);

@@ -7,6 +7,7 @@
 #include "algorithms/block_bintree/block_bintree.h"
 #include "algorithms/registry.h"
 #include "lattice.h"
+#include "oracle/conformity.h"
 
 namespace plumbline::block_bintree {
 namespace {
@@ -96,10 +97,18 @@ TEST(SplitFunction, M4_S1_TheMeshHasATJunctionWithAGapOfThreeMetres) {
   EXPECT_EQ(faults.turned, 0);
   EXPECT_EQ(faults.double_area, lattice::double_area(terrain));
 
+  const oracle::ConformityReport report = oracle::check_conformity(frame.mesh, frame.domain);
+  EXPECT_EQ(report.counts.t_junction, 1U);
+  EXPECT_EQ(report.counts.crack, 1U);
+  EXPECT_EQ(report.largest_gap_m, 3);
+  ASSERT_FALSE(report.findings.empty());
+  EXPECT_EQ(report.findings.front().at, terrain.point(2, 1));
+
   const auto repaired = make_method("block_bintree:repaired");
   repaired->prepare(terrain);
   repaired->update(s1_camera(), frame);
   EXPECT_EQ(lattice::look_at(terrain, frame).t_junctions, 0);
+  EXPECT_TRUE(oracle::check_conformity(frame.mesh, frame.domain).clean());
 }
 
 TEST(SplitFunction, M4_C2_EIsMonotoneOverTheGraph) {
