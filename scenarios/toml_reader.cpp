@@ -212,7 +212,7 @@ bool TomlTable::boolean_or(std::string_view key, bool fallback) const {
   return value == nullptr ? fallback : value->boolean();
 }
 
-std::string TomlTable::text_or(std::string_view key, std::string fallback) const {
+std::string TomlTable::text_or(std::string_view key, const std::string& fallback) const {
   const TomlValue* value = find(key);
   return value == nullptr ? fallback : value->text();
 }

@@ -85,7 +85,7 @@ class TomlTable {
 
   [[nodiscard]] double number_or(std::string_view key, double fallback) const;
   [[nodiscard]] bool boolean_or(std::string_view key, bool fallback) const;
-  [[nodiscard]] std::string text_or(std::string_view key, std::string fallback) const;
+  [[nodiscard]] std::string text_or(std::string_view key, const std::string& fallback) const;
   [[nodiscard]] std::int64_t integer_or(std::string_view key, std::int64_t least, std::int64_t greatest,
                                         std::int64_t fallback) const;
 

@@ -121,7 +121,7 @@ TEST(CaseFile, ReplayTellsWhatDiffers) {
   Case c = steep_case();
   c.expected = judge(find_law(c.law), c.input);
   EXPECT_TRUE(replay(c).confirmed);
-  const auto differs = [](Case changed, const char* what) {
+  const auto differs = [](const Case& changed, const char* what) {
     const ReplayResult result = replay(changed);
     EXPECT_FALSE(result.confirmed) << what;
     EXPECT_THAT(result.difference, testing::HasSubstr(what));
