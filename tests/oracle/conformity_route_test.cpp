@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// check_conformity against its slow twin, and sound meshes against zero findings.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "oracle/conformity.h"
+#include "properties/faults/faults.h"
+#include "tests/oracle/conformity_meshes.h"
+#include "tests/oracle/slow_conformity.h"
+
+namespace plumbline {
+namespace {
+
+using oracle::check_conformity;
+using oracle::ConformityReport;
+using oracle::Finding;
+using oracle::FindingCode;
+
+/// Areas of regions are sums of up to a few hundred rounded products of numbers below 2¹²: relative to the
+/// 2²⁴ m² of those products, 2⁻⁴⁰ m² is a thousand roundings.
+constexpr double kAreaRounding_m2 = 0x1p-20;
+
+/// Small meshes that are wrong in all sorts of ways: on a coarse lattice (so that edges overlap, corners meet
+/// edges, triangles are flat), or a sound mesh after a few random blows.
+test::Surface wrong_mesh(Random& random) {
+  test::Surface s;
+  if (random.below(2) == 0) {
+    for (int v = 0; v < 12; ++v) {
+      s.mesh.positions.push_back({static_cast<double>(random.below(5)), static_cast<double>(random.below(5)),
+                                  static_cast<double>(random.below(2))});
+    }
+    const auto corner = [&] { return static_cast<std::uint32_t>(random.below(12)); };
+    const std::uint64_t count = 1 + random.below(6);
+    while (s.mesh.triangles.size() < count) {
+      std::array<std::uint32_t, 3> c{corner(), corner(), corner()};
+      const auto& p = s.mesh.positions;
+      const double turn = (p[c[1]].x - p[c[0]].x) * (p[c[2]].y - p[c[0]].y) -
+                          (p[c[1]].y - p[c[0]].y) * (p[c[2]].x - p[c[0]].x);  // small integers: exact
+      if (turn < 0) std::swap(c[0], c[1]);
+      if (turn != 0) s.mesh.triangles.push_back(c);
+    }
+    s.domain.add_rectangle({0, 0}, {3, 4});  // some triangles stick out
+    return s;
+  }
+  s = random.below(2) == 0 ? test::random_bintree(2, random)
+                           : test::random_delaunay(10, random.below(2) == 0, random);
+  if (s.mesh.triangles.empty()) return s;
+  for (std::uint64_t blows = random.below(4); blows > 0; --blows) {
+    auto& mesh = s.mesh;
+    const auto t = static_cast<std::size_t>(random.below(mesh.triangles.size()));
+    const auto k = static_cast<std::size_t>(random.below(3));
+    const auto own_corner = [&] {
+      mesh.positions.push_back(mesh.positions[mesh.triangles[t][k]]);
+      mesh.triangles[t][k] = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    };
+    switch (random.below(5)) {
+      case 0:
+        mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+        break;
+      case 1:
+        own_corner();
+        break;
+      case 2:
+        own_corner();
+        mesh.positions.back().z += 1;
+        break;
+      case 3: {  // a corner of its own, half way along an edge: a T-vertex with a hole or an overlap
+        own_corner();
+        const Vec3 next = mesh.positions[mesh.triangles[t][(k + 1) % 3]];
+        mesh.positions.back() = (mesh.positions.back() + next) * 0.5;
+        break;
+      }
+      default: {  // an edge split on this side only
+        const auto c = mesh.triangles[t];
+        const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+        const Vec3 a = mesh.positions[c[k]], b = mesh.positions[c[(k + 1) % 3]];
+        mesh.positions.push_back((a + b) * 0.5);
+        mesh.triangles[t] = {c[k], middle, c[(k + 2) % 3]};
+        mesh.triangles.push_back({middle, c[(k + 1) % 3], c[(k + 2) % 3]});
+      }
+    }
+    if (mesh.triangles.empty()) break;
+  }
+  return s;
+}
+
+double area_of(const ConformityReport& report,
+               std::initializer_list<std::pair<FindingCode, std::string_view>> sorts) {
+  double area_m2 = 0;
+  for (const Finding& f : report.findings) {
+    for (const auto& [code, kind] : sorts)
+      area_m2 += f.code == code && (kind == "*" || f.kind == kind) ? f.area_m2 : 0;
+  }
+  return area_m2;
+}
+
+TEST(ConformityRoute, TheSlowTwinAgreesOnWrongAndSoundMeshes) {
+  using enum FindingCode;
+  std::size_t clean = 0, holes = 0, overlaps = 0, extras = 0, t_vertices = 0, cracks = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Random random(seed, "route");
+    const test::Surface s = wrong_mesh(random);
+    ConformityReport fast = check_conformity(s.mesh, s.domain);
+    const test::SlowVerdict slow = test::slow_conformity(s.mesh, s.domain);
+    const auto context = [&] { return "seed " + std::to_string(seed) + "\n" + test::text(fast); };
+
+    // Unused vertices and crowded edges are told by index alone; the twin does not look at indices.
+    fast.counts.unused_vertex = fast.counts.non_manifold = 0;
+    ASSERT_EQ(fast.clean(), slow.clean()) << context();
+    clean += slow.clean();
+    ASSERT_EQ(fast.counts.degenerate, slow.degenerate) << context();
+    ASSERT_EQ(fast.counts.fold_over, slow.clockwise) << context();
+    if (slow.degenerate + slow.clockwise + fast.counts.duplicate > 0)
+      continue;  // told instead of their consequences
+
+    ASSERT_NEAR(area_of(fast, {{hole, "*"}, {outline, "missing"}}), slow.missing_m2, kAreaRounding_m2)
+        << context();
+    ASSERT_NEAR(area_of(fast, {{overlap, "*"}}), slow.overlap_m2, kAreaRounding_m2) << context();
+    ASSERT_NEAR(area_of(fast, {{outline, "extra"}}), slow.extra_m2, kAreaRounding_m2) << context();
+    ASSERT_EQ(fast.counts.hole > 0 || area_of(fast, {{outline, "missing"}}) > 0, slow.missing_m2 > 0)
+        << context();
+    ASSERT_EQ(fast.counts.overlap > 0, slow.overlap_m2 > 0) << context();
+    holes += slow.missing_m2 > 0;
+    overlaps += slow.overlap_m2 > 0;
+    extras += slow.extra_m2 > 0;
+
+    // Where triangles lie upon each other, the twin sees vertices on edges that are matched already, and
+    // several pairings of edges; elsewhere both must see the same.
+    std::set<std::array<double, 6>> places, gaps;
+    std::size_t mismatches = 0;
+    for (const Finding& f : fast.findings) {
+      if (f.kind == "height_mismatch") ++mismatches;
+      if (f.kind != "t_vertex") continue;
+      const auto& corners = s.mesh.triangles[f.triangles[0]];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+        if (std::min(a, b) != f.vertices[1] || std::max(a, b) != f.vertices[2]) continue;
+        const Vec3 &pa = s.mesh.positions[a], &pb = s.mesh.positions[b];
+        const std::array place{f.at.x, f.at.y, pa.x, pa.y, pb.x, pb.y};
+        places.insert(place);
+        if (f.code == crack) gaps.insert(place);
+      }
+    }
+    ASSERT_TRUE(std::includes(slow.t_places.begin(), slow.t_places.end(), places.begin(), places.end()))
+        << context();
+    if (slow.overlap_m2 == 0 && slow.extra_m2 == 0) {
+      ASSERT_EQ(places, slow.t_places) << context();
+      ASSERT_EQ(gaps, slow.gaps) << context();
+      if (slow.t_places.empty()) {
+        ASSERT_EQ(mismatches, slow.cracks) << context();
+      }
+      t_vertices += places.size();
+      cracks += mismatches;
+    }
+  }
+  // The comparison must have had something to compare, of every sort.
+  EXPECT_GT(clean, 100u);
+  EXPECT_GT(holes, 100u);
+  EXPECT_GT(overlaps, 100u);
+  EXPECT_GT(extras, 100u);
+  EXPECT_GT(t_vertices, 50u);
+  EXPECT_GT(cracks, 50u);
+}
+
+TEST(ConformityRoute, CleanMeansClean) {
+  std::size_t triangles = 0;
+  for (std::uint64_t seed = 0; seed < 10000; ++seed) {
+    Random random(seed, "clean");
+    test::Surface s;
+    switch (seed % 4) {
+      case 0:
+        s = test::random_grid(2 + static_cast<int>(random.below(7)), random);
+        break;
+      case 1:
+        s = test::random_bintree(1 + static_cast<int>(random.below(3)), random);
+        break;
+      case 2:
+        s = test::random_delaunay(3 + static_cast<int>(random.below(40)), false, random);
+        break;
+      default:
+        s = test::random_delaunay(3 + static_cast<int>(random.below(40)), true, random);
+    }
+    const ConformityReport report = check_conformity(s.mesh, s.domain);
+    ASSERT_TRUE(report.clean()) << "seed " << seed << '\n' << test::text(report);
+    triangles += s.mesh.triangles.size();
+  }
+  EXPECT_GT(triangles, 100000u);
+}
+
+}  // namespace
+}  // namespace plumbline
