@@ -12,8 +12,8 @@
 
 namespace plumbline {
 
-/// What an update did (METHODS, notation). A method without memory from frame to frame counts every split on its way
-/// down from the root, and no merge.
+/// What an update did (METHODS, notation). A method without memory from frame to frame counts every split on
+/// its way down from the root, and no merge.
 struct Counters {
   std::uint64_t visited = 0;    ///< nodes (triangles, vertices, edges: the method's own unit) looked at
   std::uint64_t evaluated = 0;  ///< screen errors computed
@@ -24,8 +24,9 @@ struct Counters {
 /// One frame's result.
 struct LodFrame {
   Mesh mesh;
-  /// Identity of each vertex of `mesh`, the same number in every frame of a flight (a sample's index, a node's): what
-  /// entered and left, and what toggles, is read off these. As long as `mesh.positions`, without repeats.
+  /// Identity of each vertex of `mesh`, the same number in every frame of a flight (a sample's index, a
+  /// node's): what entered and left, and what toggles, is read off these. As long as `mesh.positions`,
+  /// without repeats.
   std::vector<std::uint64_t> vertex_keys;
   PlanDomain domain;  ///< the plan region this frame promises to cover
   Counters counters;
@@ -40,22 +41,23 @@ struct LodFrame {
 
 /// A level-of-detail method: the one class to derive from. No renderer, clock, file or thread in it.
 ///
-/// Life of an instance: created by its description's factory, `prepare`d once, then `clone`d for every flight (clones
-/// run on different threads); each clone gets its threshold and sees the frames of one flight in order.
+/// Life of an instance: created by its description's factory, `prepare`d once, then `clone`d for every flight
+/// (clones run on different threads); each clone gets its threshold and sees the frames of one flight in
+/// order.
 class LodMethod {
  public:
   virtual ~LodMethod() = default;
 
-  /// Everything that depends on the terrain alone. `terrain` outlives the method and its clones. Throws InputError if
-  /// the method cannot take this terrain (the message says which size would do).
+  /// Everything that depends on the terrain alone. `terrain` outlives the method and its clones. Throws
+  /// InputError if the method cannot take this terrain (the message says which size would do).
   virtual void prepare(const Terrain& terrain) = 0;
-  /// The mesh for this camera and the current threshold. `frame` may hold an earlier result (its memory is reused) and
-  /// is overwritten whole. State kept from earlier frames is allowed.
+  /// The mesh for this camera and the current threshold. `frame` may hold an earlier result (its memory is
+  /// reused) and is overwritten whole. State kept from earlier frames is allowed.
   virtual void update(const Camera& camera, LodFrame& frame) = 0;
   /// Forgets all earlier frames: the next `update` is a first frame.
   virtual void reset() = 0;
-  /// A flyer over the same terrain, as after `reset`. Sharing what `prepare` made is for the method to arrange
-  /// (std::shared_ptr<const …>); a plain copy is right too, if larger.
+  /// A flyer over the same terrain, as after `reset`. Sharing what `prepare` made is for the method to
+  /// arrange (std::shared_ptr<const …>); a plain copy is right too, if larger.
   [[nodiscard]] virtual std::unique_ptr<LodMethod> clone() const = 0;
 
   /// τ, pixels; > 0. May change between frames.

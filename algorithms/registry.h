@@ -15,13 +15,13 @@ namespace plumbline {
 
 /// What a method promises; laws and oracles hold it to these, and list the others as "not promised".
 enum class Promise {
-  conforming,         ///< covers its domain once, edge to edge, at equal heights
-  monotone_in_tau,    ///< a larger threshold never gives more triangles on the same promised domain
-  idempotent,         ///< a second update with the same camera changes nothing
-  path_independent,   ///< the mesh depends on the camera, not on the flight before it
-  exact_at_zero,      ///< at a vanishing threshold every sample is met
-  symmetric,          ///< commutes with the eight symmetries of the grid
-  threshold_blind,    ///< ignores the threshold (one run serves all)
+  conforming,        ///< covers its domain once, edge to edge, at equal heights
+  monotone_in_tau,   ///< a larger threshold never gives more triangles on the same promised domain
+  idempotent,        ///< a second update with the same camera changes nothing
+  path_independent,  ///< the mesh depends on the camera, not on the flight before it
+  exact_at_zero,     ///< at a vanishing threshold every sample is met
+  symmetric,         ///< commutes with the eight symmetries of the grid
+  threshold_blind,   ///< ignores the threshold (one run serves all)
 };
 std::string_view promise_name(Promise promise);
 
@@ -45,10 +45,10 @@ struct ClaimDescription {
 
 /// A registry entry: one method with its variants.
 struct MethodDescription {
-  std::string id;        ///< "block_bintree"
+  std::string id;  ///< "block_bintree"
   std::string title;
-  std::string citation;  ///< authors, title, venue, year
-  std::string section;   ///< where in METHODS / the paper: "M4", "reference"
+  std::string citation;                      ///< authors, title, venue, year
+  std::string section;                       ///< where in METHODS / the paper: "M4", "reference"
   std::vector<VariantDescription> variants;  ///< first: the published default, name ""
   std::vector<OptionDescription> options;
   std::vector<ClaimDescription> claims;
@@ -66,10 +66,12 @@ struct MethodChoice {
   [[nodiscard]] bool promises(Promise promise) const;
 };
 
-/// Finds "id" or "id:variant" ("id:published" names the default too). Throws InputError naming the nearest known id.
+/// Finds "id" or "id:variant" ("id:published" names the default too). Throws InputError naming the nearest
+/// known id.
 MethodChoice find_method(std::string_view full_id);
 
-/// Makes an unprepared instance. Throws InputError for an unknown option (naming the nearest) or a wrong type.
+/// Makes an unprepared instance. Throws InputError for an unknown option (naming the nearest) or a wrong
+/// type.
 std::unique_ptr<LodMethod> make_method(std::string_view full_id, const Options& options = {});
 
 /// Typed look-up with the description's default; for use inside `make`.
