@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,13 @@ VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain) {
   require_grid(terrain);
   const double spacing_m = terrain.spacing_m;
   detail::Overlay overlay(terrain);
+  // One triangle is held back, so that the next one's samples can be asked for before they are needed.
+  std::optional<detail::GridTriangle> held;
+  const auto judge = [&](const detail::GridTriangle& next) {
+    overlay.expect(next);
+    if (held) overlay.judge(*held);
+    held = next;
+  };
   for (const auto& corners : mesh.triangles) {
     const std::size_t count = mesh.positions.size();
     if (corners[0] >= count || corners[1] >= count || corners[2] >= count) continue;
@@ -59,14 +67,15 @@ VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain) {
     const double reach_m = std::max(
         {std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
     if (reach_m > detail::kFarCells * spacing_m) {
-      for (const auto& part : detail::cut_to_grid({a, b, c}, terrain)) overlay.judge(part);
+      for (const auto& part : detail::cut_to_grid({a, b, c}, terrain)) judge(part);
       continue;
     }
     const auto in_grid = [&](const Vec3& p) {
       return detail::GridPoint{in_cells(p.x, spacing_m), in_cells(p.y, spacing_m), p.z};
     };
-    overlay.judge({in_grid(a), in_grid(b), in_grid(c)});
+    judge({in_grid(a), in_grid(b), in_grid(c)});
   }
+  if (held) overlay.judge(*held);
   overlay.finish();
 
   VerticalError result;

@@ -30,22 +30,22 @@ struct VerticalError {
 /// forms for a linear function over a triangle, split at the change of sign.
 ///
 /// What is rounded. Positions are taken in units of the spacing; a coordinate that is the double i·spacing_m
-/// becomes the integer i, so a mesh on grid samples is located exactly. Otherwise heights are evaluated in
-/// double, relative to a corner of the triangle: each visited value errs by at most kVerticalRoundingFactor ·
-/// 2⁻⁵³ · (range of the mesh's and the terrain's heights over the cells that the triangle touches) for
-/// samples' meshes; for vertices off the grid, the rounding of their coordinates adds (slope per cell) ·
-/// (coordinate in cells) · 2⁻⁵². A triangle that is one half of one cell, by either diagonal, is judged by
-/// differences of its corners' heights: the reference mesh gives exactly 0, any choice of diagonals a
-/// `certain_max` of exactly 0.
+/// becomes the integer i, so a mesh on grid samples is located exactly. Heights are evaluated in double,
+/// relative to a corner of the triangle: each visited value errs by at most kVerticalRoundingFactor · 2⁻⁵³ ·
+/// (range of the heights of the triangle and of the samples of the cells that it touches). Corners between
+/// samples add what the rounding of their coordinates (2⁻⁵³ of each) moves the triangle's plane by: more, the
+/// thinner it is. A triangle that is one half of one cell, by either diagonal, is judged by differences of
+/// its corners' heights: the reference mesh gives exactly 0, any choice of diagonals a `certain_max` of
+/// exactly 0. Multiplying all plan lengths, or all heights, by a power of two multiplies the figures exactly.
 ///
-/// `max`, `certain_max` and their places do not depend on the order of triangles. `rms`, `mean` and `area_m2`
-/// are summed in mesh order (compensated); another order may change their last bit.
+/// `max`, `certain_max` and their places do not depend on the order of triangles nor on the corner that each
+/// starts with. `rms`, `mean` and `area_m2` are summed in mesh order (compensated); another order may change
+/// their last bits.
 ///
 /// Skipped: triangles with a bad index or a non-finite corner, and those that are not positively oriented in
 /// plan (decided exactly; O1 reports them). What lies outside the grid is not judged. Overlapping triangles
-/// are judged each. Time: linear in samples covered + triangles + crossings; memory: two rows of samples.
-/// Thread-safe. Requires: terrain of at least 2 × 2 finite samples, spacing_m > 0; throws InputError
-/// otherwise.
+/// are judged each. Time: linear in samples covered + triangles + crossings; memory: constant. Thread-safe.
+/// Requires: at least 2 × 2 samples, one height each, spacing_m > 0 and finite; throws InputError otherwise.
 VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain);
 
 /// The factor of the rounding bound above. A value is made of at most a dozen operations on numbers inside

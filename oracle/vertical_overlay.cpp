@@ -74,6 +74,13 @@ bool on_samples(const GridTriangle& triangle) {
 /// would lose digits on its way to the next sample.
 constexpr double kLeastHeightCells = 0.125;
 
+constexpr int kRowsAhead = 3;
+/// Asks for two cache lines of samples. A request beyond the grid is harmless: nothing is read.
+void fetch(const double* heights) {
+  __builtin_prefetch(heights);
+  __builtin_prefetch(heights + 8);
+}
+
 }  // namespace
 
 Overlay::Edge Overlay::make_edge(const GridPoint& from, const GridPoint& to) {
@@ -130,6 +137,20 @@ void Overlay::cross_row(Row& row, const std::array<Edge, 3>& edges, int last_col
 
 Overlay::Overlay(const Terrain& terrain)
     : terrain_(terrain), columns_(terrain.columns), rows_(terrain.rows) {}
+
+void Overlay::expect(const GridTriangle& triangle) const {
+  const GridPoint* south = &triangle[0];
+  for (const GridPoint& p : triangle) {
+    if (p.y < south->y) south = &p;
+  }
+  const double west = std::min({triangle[0].x, triangle[1].x, triangle[2].x});
+  const double north_end = std::max({triangle[0].y, triangle[1].y, triangle[2].y});
+  if (west < 0 || west > columns_ - 1 || south->y < 0 || north_end > rows_ - 1) return;
+  const double* heights =
+      terrain_.heights_m.data() + terrain_.index(static_cast<int>(west), static_cast<int>(south->y));
+  const int rows = std::min(static_cast<int>(north_end) - static_cast<int>(south->y), kRowsAhead);
+  for (int y = 0; y <= rows; ++y, heights += columns_) fetch(heights);
+}
 
 void Overlay::judge(const GridTriangle& given) {
   const auto [west, east] = std::minmax({given[0].x, given[1].x, given[2].x});
@@ -234,6 +255,11 @@ void Overlay::judge_rows(const GridTriangle& triangle) {
     const Row& south = rows[static_cast<std::size_t>(y % 2)];
     Row& north = rows[static_cast<std::size_t>((y + 1) % 2)];
     locate(north, y + 1);
+    // Rows of samples lie far apart in memory: ask for those to come while this one is worked on.
+    if (y + 1 + kRowsAhead <= last_row) {
+      fetch(north.errors.heights + std::max(north.first_cell, 0) +
+            kRowsAhead * static_cast<std::ptrdiff_t>(columns_));
+    }
     // The cells that the triangle meets between two rows: from its cross-sections there and its corners in
     // between.
     int first = last_column, last = -1;

@@ -33,6 +33,9 @@ class Overlay {
 
   /// Requires: counter-clockwise, coordinates at most kFarCells from 0.
   void judge(const GridTriangle& triangle);
+  /// Says that a triangle comes next, so that its first samples are near when it is judged. Changes no
+  /// figure.
+  void expect(const GridTriangle& triangle) const;
   void finish() { sums_.finish(); }
 
   [[nodiscard]] const PieceSums& sums() const { return sums_; }

@@ -31,21 +31,28 @@ double PieceSums::add_cells(const Plane& plane, const RowErrors& south, const Ro
   const double* s = south.heights + first;
   const double* n = north.heights + first;
   Pair columns{static_cast<double>(first), static_cast<double>(first + 1)};
-  for (int left = count; left > 0; left -= 2, s += 2, n += 2, columns += 2) {
+  int left = count;
+  for (; left >= 2; left -= 2, s += 2, n += 2, columns += 2) {
     const Pair west = plane.by_x * columns;
     const Pair east = plane.by_x * (columns + 1);
-    if (left == 1) {  // the other lane adds nothing
-      const Pair keep{1, 0};
-      add(keep * ((west + south.row_height) - (s[0] - plane.base_m)),
-          keep * ((east + south.row_height) - (s[1] - plane.base_m)),
-          keep * ((east + north.row_height) - (n[1] - plane.base_m)),
-          keep * ((west + north.row_height) - (n[0] - plane.base_m)));
-      break;
-    }
     add((west + south.row_height) - (load(s) - plane.base_m),
         (east + south.row_height) - (load(s + 1) - plane.base_m),
         (east + north.row_height) - (load(n + 1) - plane.base_m),
         (west + north.row_height) - (load(n) - plane.base_m));
+  }
+  if (left == 1) {  // its halves side by side
+    const int x = first + count - 1;
+    const double shared = south.at(plane, x), opposite = north.at(plane, x + 1);
+    const Pair a{shared, shared};
+    const Pair b{south.at(plane, x + 1), opposite};
+    const Pair c{opposite, north.at(plane, x)};
+    const Pair sum = a + b + c;
+    const Pair low = lesser(a, b), high = greater(a, b);
+    const Pair least = lesser(low, c), most = greater(high, c);
+    squares += 2 * square_term(a, b, c, sum);
+    absolutes += absolute_term(least, greater(low, lesser(high, c)), most, sum);
+    lowest = lesser(lowest, least);
+    highest = greater(highest, most);
   }
   cell_squares_ = squares;
   cell_absolutes_ = absolutes;
