@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "oracle/finding.h"
 
+#include <fmt/format.h>
+
 namespace plumbline::oracle {
 
 std::string_view finding_name(FindingCode code) {
@@ -15,49 +17,138 @@ const std::vector<FindingDescription>& finding_catalogue() {
   using enum FindingCode;
   static const std::vector<FindingDescription> catalogue{
       {bad_index, "bad_index",
-       "A triangle names a vertex that the mesh does not have. It is left out of every later check."},
+       "A triangle names a vertex that the mesh does not have. It is left out of every later check.",
+       R"(
+    vertices 0 … 8      triangle 3 4 9
+                                     ^ there is no vertex 9
+)"},
       {non_finite, "non_finite",
-       "A vertex with an infinite or undefined coordinate. Its triangles are left out of every later check."},
+       "A vertex with an infinite or undefined coordinate. Its triangles are left out of every later check.",
+       R"(
+    vertex 4 = (12, 30, nan)
+)"},
       {nothing_judged, "nothing_judged",
        "An oracle or a law had nothing to judge: no frame, no triangle in the picture, a precondition that "
-       "never held. "
-       "That is a failure, not a pass."},
+       "never "
+       "held. That is a failure, not a pass."},
       {degenerate, "degenerate",
-       "A triangle whose three corners are exactly collinear in plan (or that names a vertex twice)."},
+       "A triangle whose three corners are exactly collinear in plan, or that names a vertex twice "
+       "('repeated_index').",
+       R"(
+    a────────b────────c      triangle a b c
+)"},
       {duplicate, "duplicate",
        "A triangle with the same three corners as another, in any order. Only the copy is the finding, and "
-       "it is left out "
-       "of later checks."},
+       "it is "
+       "left out of later checks.",
+       R"(
+    c
+    │ ╲        triangle a b c
+    a───b      triangle b c a
+)"},
       {non_manifold, "non_manifold",
-       "An edge, by index, with more than two triangles or with two triangles that run along it in the same "
-       "direction."},
+       "An edge, by index, with more than two triangles, or with two triangles that run along it in the same "
+       "direction. In plan those cover each other, so an overlap stands beside it.",
+       R"(
+        c   e
+       ╱ ╲ ╱ ╲         a b c, a b e: both to the left of a → b
+      a═══╪═══b
+       ╲     ╱
+          d
+)"},
       {unused_vertex, "unused_vertex",
        "A vertex that no triangle names. A hazard: the picture does not show it."},
       {fold_over, "fold_over",
        "A triangle that runs clockwise in plan: 'reversed' if it would fit its neighbours wound the other "
-       "way round, "
-       "'folded' if the surface itself turns over."},
+       "way "
+       "round, 'folded' if the surface itself turns over.",
+       R"(
+    d───────c
+    │ ╲   ╱ │      pull the middle vertex m across a–b:
+    │  ╲ ╱  │      a b m turns over
+    a───╳───b
+      ╲ │ ╱
+        m
+)"},
       {t_junction, "t_junction",
        "A vertex in the open interior of another triangle's edge in plan, exactly at the edge's height. A "
-       "hazard: no gap in "
-       "exact arithmetic, but a rasteriser shows pixels through it."},
+       "hazard: "
+       "no gap in exact arithmetic, but a rasteriser shows pixels through it.",
+       R"(
+    ┌───┬───┐
+    │ ╲ │ ╱ │      two fine triangles
+    a───v───c      meet one coarse one, which does not know v
+     ╲     ╱
+        b
+)"},
       {crack, "crack",
        "An open gap: a T-vertex off the edge's height ('t_vertex'; the gap is vertex minus edge), or two "
-       "coincident plan "
-       "edges whose end heights differ ('height_mismatch'; the larger difference)."},
+       "coincident plan edges whose end heights differ ('height_mismatch'; the larger difference).",
+       R"(
+            v            seen from the side:
+         ╱  ↕ gap  ╲     the fine edges a v, v c
+    a───────────────c    over the coarse edge a c
+)"},
       {hole, "hole",
-       "A plan region inside the promised domain, away from its outline, that no triangle covers."},
-      {overlap, "overlap", "A plan region of the promised domain that triangles cover twice or more."},
+       "A plan region inside the promised domain that no triangle covers, and that shares no stretch of the "
+       "promised outline. Its area and its loop are given.",
+       R"(
+    ┌───────────┐
+    │   ╱╲      │
+    │  ╱  ╲  ←  no triangle here
+    │ ╱────╲    │
+    └───────────┘
+)"},
+      {overlap, "overlap",
+       "A plan region of the promised domain that triangles cover twice or more. Its area and its loop are "
+       "given.",
+       R"(
+    ┌─────────┐
+    │     ┌───┼─────┐
+    │     │ 2 │     │
+    └─────┼───┘     │
+          └─────────┘
+)"},
       {outline, "outline",
-       "The covered region ends elsewhere than promised: 'missing' along the promised outline, or 'extra' "
-       "beyond it; with "
-       "the area and the largest distance of the region's corners to the promised outline."},
+       "The covered region ends elsewhere than promised: 'missing' along a stretch of the promised outline, "
+       "or "
+       "'extra' beyond it; with the area, and the largest distance of the region's corners to the promised "
+       "outline.",
+       R"(
+    ┌─────────────┐
+    │             │
+    │    mesh     ├──╮
+    │             │  │ extra: beyond the promised side
+    │     ╱╲      ├──╯
+    └────╱  ╲─────┘
+       missing: the promised side runs straight on
+)"},
       {law_violated, "law_violated", "A law that the method promises does not hold on this input."},
       {error_over_threshold, "error_over_threshold",
        "The measured displacement in the picture is above the threshold that the method was given."},
       {uncovered, "uncovered", "Pixels whose reference point has no point of the mesh above or below it."},
   };
   return catalogue;
+}
+
+std::string findings_manual() {
+  std::string page =
+      "# Findings\n\n"
+      "This page is written by the program's own catalogue (`oracle/finding.cpp`); a test keeps them "
+      "equal.\n\n"
+      "Codes are stable: 1xx input, 2xx triangles and edges, 3xx surface, 4xx hierarchy and laws, 5xx "
+      "picture. One\n"
+      "cause makes one finding: what a lower layer has told, a higher one does not repeat. So a triangle "
+      "with a bad\n"
+      "index leaves no hole behind it, a triangle twice is no overlap, a reversed one no gap.\n\n"
+      "Findings of layers 1 to 3 about a mesh are decided exactly, without a tolerance. Gaps, areas and "
+      "distances only\n"
+      "describe them, and are rounded.\n";
+  for (const FindingDescription& entry : finding_catalogue()) {
+    page += fmt::format("\n## {} `{}`\n\n{}\n", static_cast<int>(entry.code), entry.name, entry.definition);
+    if (!entry.drawing.empty()) page += fmt::format("\n```text{}```\n", entry.drawing);
+  }
+  return page;
 }
 
 }  // namespace plumbline::oracle

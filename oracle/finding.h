@@ -38,10 +38,13 @@ struct FindingDescription {
   FindingCode code;
   std::string_view name;
   std::string_view definition;
+  std::string_view drawing = {};  ///< lines of plain text, each ending in a line break; may be empty
 };
 /// In the order of the codes.
 const std::vector<FindingDescription>& finding_catalogue();
 std::string_view finding_name(FindingCode code);
+/// The catalogue as the manual page docs/findings.md (Markdown).
+std::string findings_manual();
 
 enum class Severity { hazard, fault };
 
