@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "oracle/image.h"
 #include "oracle/image_view.h"
 #include "scenarios/camera.h"
@@ -122,6 +124,47 @@ inline std::vector<Camera> many_cameras(const Terrain& terrain, int width_px, in
 
 inline bool same_hits(const PixelHits& a, const PixelHits& b) {
   return a.width == b.width && a.height == b.height && a.triangle == b.triangle && a.depth_m == b.depth_m;
+}
+
+struct Compared {
+  ImageError error;
+  ImageMaps maps;
+  PixelHits reference_hits, mesh_hits;
+};
+
+inline Compared compare(const Camera& camera, const Mesh& reference, const Mesh& mesh,
+                        double threshold_px = 1) {
+  const RayDevice device;
+  const RaySurface a(device, reference);
+  const RaySurface b(device, mesh);
+  Compared result;
+  result.reference_hits = a.look(camera);
+  result.mesh_hits = b.look(camera);
+  result.error =
+      image_error(camera, a, result.reference_hits, b, result.mesh_hits, threshold_px, &result.maps);
+  return result;
+}
+
+inline void expect_all_zero(const PixelFigure& figure) {
+  EXPECT_EQ(figure.max, 0);
+  EXPECT_EQ(figure.p999, 0);
+  EXPECT_EQ(figure.p99, 0);
+  EXPECT_EQ(figure.rms, 0);
+  EXPECT_EQ(figure.mean, 0);
+}
+
+inline bool same_figure(const PixelFigure& a, const PixelFigure& b) {
+  return a.max == b.max && a.p999 == b.p999 && a.p99 == b.p99 && a.rms == b.rms && a.mean == b.mean &&
+         a.count == b.count;
+}
+
+inline Mesh lifted(Mesh mesh, double height_m) {
+  for (Vec3& p : mesh.positions) p.z += height_m;
+  return mesh;
+}
+
+inline Terrain plane(int side, double spacing_m) {
+  return terrain_of(side, side, spacing_m, [](int, int) { return 0.0; });
 }
 
 }  // namespace plumbline::oracle::test
