@@ -191,9 +191,8 @@ TEST(VerticalExact, DenseSamplesNeverExceedAndComeNear) {
   Random random(25);
   constexpr int kSteps = 250;
   for (int round = 0; round < 120; ++round) {
-    const Terrain terrain =
-        test::random_terrain(2 + static_cast<int>(random.below(9)), 2 + static_cast<int>(random.below(9)),
-                             round % 2 == 0 ? 30 : 1.0 / 3, random.bits());
+    const int columns = 2 + static_cast<int>(random.below(9)), rows = 2 + static_cast<int>(random.below(9));
+    const Terrain terrain = test::random_terrain(columns, rows, round % 2 == 0 ? 30 : 1.0 / 3, random.bits());
     const Mesh mesh = test::random_triangle(terrain, random, round % 3 == 0, round % 5 == 1);
     const VerticalError error = vertical_error(mesh, terrain);
     const auto& p = mesh.positions;
