@@ -24,8 +24,8 @@ constexpr double kCellSlack = 0x1p-32;
 /// whole index holds that many. So memory is linear in triangles, even where all of them overlap.
 constexpr double kEntriesTop = 12, kEntriesFiner = 5, kEntriesWhole = 40;
 
-/// Cells with more triangles than this are not looked into for a proof that they are covered once.
-constexpr std::size_t kMostProved = 24;
+/// Vertices with more edges than this are not searched for twins, so that the search stays linear.
+constexpr std::size_t kMostMatched = 64;
 
 /// Height over a point that lies on the edge between a and b: the same for (b, a).
 double height_on_edge(Vec3 a, Vec3 b, Vec2 p) {
@@ -60,47 +60,76 @@ bool meets(Vec2 a, Vec2 b, Vec2 low, Vec2 high) {
   return !((s0 > 0 && s1 > 0 && s2 > 0 && s3 > 0) || (s0 < 0 && s1 < 0 && s2 < 0 && s3 < 0));
 }
 
-/// Whether every point of the rectangle lies in exactly one triangle (on an edge: in the two that share it).
-/// `run` are all triangles that may reach into it. May say no without need, never yes wrongly (up to slivers
-/// that double cannot tell from nothing).
-///
-/// Proof: if all triangles are positively oriented, the number of triangles over a point changes only where
-/// an edge is crossed, by −1 and +1; if each edge that meets the rectangle has exactly one twin running the
-/// other way between the same vertices, it does not change at all; so it is what it is at the centre.
-bool covered_once(const Mesh& mesh, std::span<const std::uint32_t> run, Vec2 low, Vec2 high) {
-  if (run.size() > kMostProved) return false;
-  std::array<std::pair<std::uint32_t, std::uint32_t>, 3 * kMostProved> edges;
-  std::size_t edge_count = 0;
+}  // namespace
+
+PlanIndex::Sides PlanIndex::find_sides(const Mesh& mesh, std::span<const std::uint32_t> members) {
+  // Half-edges in buckets of their smaller vertex.
+  std::vector<std::uint32_t> first(mesh.positions.size() + 1, 0);
+  const auto for_each_edge = [&](auto&& visit) {
+    for (const std::uint32_t t : members) {
+      const auto& v = mesh.triangles[t];
+      for (std::uint32_t k = 0; k < 3; ++k) visit(t, k, v[k], v[(k + 1) % 3]);
+    }
+  };
+  for_each_edge([&](std::uint32_t, std::uint32_t, std::uint32_t from, std::uint32_t to) {
+    ++first[std::min(from, to) + 1];
+  });
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
+  struct HalfEdge {
+    std::uint32_t triangle;
+    std::uint32_t number : 2, rising : 1;  ///< from corner `number` to the next; whether to the larger vertex
+    std::uint32_t larger;
+  };
+  std::vector<HalfEdge> edges(3 * members.size());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for_each_edge([&](std::uint32_t t, std::uint32_t k, std::uint32_t from, std::uint32_t to) {
+    edges[next[std::min(from, to)]++] = {t, k & 3U, from < to ? 1U : 0U, std::max(from, to)};
+  });
+
+  Sides sides(mesh.triangles.size(), 0);
+  for (const std::uint32_t t : members) {
+    const auto& v = mesh.triangles[t];
+    const Vec3& a = mesh.positions[v[0]];
+    if (!(edge_value(plan(a), plan(mesh.positions[v[1]]), plan(mesh.positions[v[2]])) > 0))
+      sides[t] |= kNotPositive;
+  }
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    const auto bucket = std::span(edges).subspan(first[v], first[v + 1] - first[v]);
+    for (const HalfEdge& edge : bucket) {
+      int same = 0;
+      int twins = 0;
+      if (bucket.size() <= kMostMatched) {
+        for (const HalfEdge& other : bucket) {
+          if (other.larger != edge.larger) continue;
+          (other.rising == edge.rising ? same : twins) += 1;
+        }
+      }
+      if (same != 1 || twins != 1) sides[edge.triangle] |= static_cast<std::uint8_t>(1U << edge.number);
+    }
+  }
+  return sides;
+}
+
+bool PlanIndex::covered_once(const Mesh& mesh, const Sides& sides, std::span<const std::uint32_t> run,
+                             Vec2 low, Vec2 high) {
   std::size_t over_centre = 0;
   const Vec2 centre{low.x * 0.5 + high.x * 0.5, low.y * 0.5 + high.y * 0.5};
   for (const std::uint32_t t : run) {
+    if ((sides[t] & kNotPositive) != 0) return false;
     const auto& v = mesh.triangles[t];
     const Vec2 a = plan(mesh.positions[v[0]]);
     const Vec2 b = plan(mesh.positions[v[1]]);
     const Vec2 c = plan(mesh.positions[v[2]]);
-    if (!(edge_value(a, b, c) > 0)) return false;
     const double least =
         std::min({edge_value(a, b, centre), edge_value(b, c, centre), edge_value(c, a, centre)});
     if (least == 0) return false;
     over_centre += least > 0 ? 1U : 0U;
-    for (std::size_t k = 0; k < 3; ++k) edges[edge_count++] = {v[k], v[(k + 1) % 3]};
+    if ((sides[t] & 1U) != 0 && meets(a, b, low, high)) return false;
+    if ((sides[t] & 2U) != 0 && meets(b, c, low, high)) return false;
+    if ((sides[t] & 4U) != 0 && meets(c, a, low, high)) return false;
   }
-  if (over_centre != 1) return false;
-  for (std::size_t i = 0; i < edge_count; ++i) {
-    const auto [from, to] = edges[i];
-    int same = 0;
-    int twins = 0;
-    for (std::size_t k = 0; k < edge_count; ++k) {
-      same += edges[k].first == from && edges[k].second == to ? 1 : 0;
-      twins += edges[k].first == to && edges[k].second == from ? 1 : 0;
-    }
-    if (same == 1 && twins == 1) continue;
-    if (meets(plan(mesh.positions[from]), plan(mesh.positions[to]), low, high)) return false;
-  }
-  return true;
+  return over_centre == 1;
 }
-
-}  // namespace
 
 std::optional<double> height_on_rim(const Vec3& a, const Vec3& b, const Vec3& c, Vec2 p, double ea,
                                     double eb) {
@@ -131,7 +160,8 @@ PlanIndex::PlanIndex(const Mesh& mesh, std::span<const std::uint8_t> usable) {
   used_ = members.size();
   const double wanted = std::sqrt(static_cast<double>(members.size()) / 2);
   const auto side = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMaxTopSide)));
-  add_grid(mesh, members, low_, high_, 0, fitting_side(mesh, members, low_, high_, side, kEntriesTop));
+  const Sides sides = find_sides(mesh, members);
+  add_grid(mesh, sides, members, low_, high_, 0, fitting_side(mesh, members, low_, high_, side, kEntriesTop));
 }
 
 std::uint32_t PlanIndex::fitting_side(const Mesh& mesh, std::span<const std::uint32_t> members, Vec2 low,
@@ -155,8 +185,8 @@ std::uint32_t PlanIndex::fitting_side(const Mesh& mesh, std::span<const std::uin
   return side;
 }
 
-void PlanIndex::add_grid(const Mesh& mesh, std::span<const std::uint32_t> members, Vec2 low, Vec2 high,
-                         int depth, std::uint32_t side) {
+void PlanIndex::add_grid(const Mesh& mesh, const Sides& sides, std::span<const std::uint32_t> members,
+                         Vec2 low, Vec2 high, int depth, std::uint32_t side) {
   Grid grid;
   grid.low = low;
   grid.columns = grid.rows = side;
@@ -222,7 +252,7 @@ void PlanIndex::add_grid(const Mesh& mesh, std::span<const std::uint32_t> member
           fitting_side(mesh, run, finer_low, finer_high, static_cast<std::uint32_t>(wanted), kEntriesFiner);
       if (finer > 1) {
         cells_[grid.first_cell + i] = {static_cast<std::uint32_t>(grids_.size()), kFiner};
-        add_grid(mesh, run, finer_low, finer_high, depth + 1, finer);
+        add_grid(mesh, sides, run, finer_low, finer_high, depth + 1, finer);
         continue;
       }
     }
@@ -232,7 +262,7 @@ void PlanIndex::add_grid(const Mesh& mesh, std::span<const std::uint32_t> member
     const auto y = static_cast<double>(i / grid.columns);
     const Vec2 cell_low{low.x + cell_x * x - slack_x, low.y + cell_y * y - slack_y};
     const Vec2 cell_high{low.x + cell_x * (x + 1) + slack_x, low.y + cell_y * (y + 1) + slack_y};
-    if (!covered_once(mesh, run, cell_low, cell_high)) {
+    if (!covered_once(mesh, sides, run, cell_low, cell_high)) {
       for (const std::uint32_t t : run) alone_[t] = 0;
     }
   }

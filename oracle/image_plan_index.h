@@ -106,8 +106,24 @@ class PlanIndex {
   };
   static constexpr std::uint32_t kFiner = 0xffffffffu;
 
-  void add_grid(const Mesh& mesh, std::span<const std::uint32_t> members, Vec2 low, Vec2 high, int depth,
-                std::uint32_t side);
+  /// Of each triangle: bit k is set if the edge from corner k to the next has no twin, that is, if not
+  /// exactly one edge of the mesh runs so and exactly one the other way between the same two vertices;
+  /// kNotPositive if the triangle is not counter-clockwise.
+  using Sides = std::vector<std::uint8_t>;
+  static constexpr std::uint8_t kNotPositive = 8;
+  static Sides find_sides(const Mesh& mesh, std::span<const std::uint32_t> members);
+  /// Whether every point of the rectangle lies in exactly one triangle (on an edge: in the two that share
+  /// it). `run` are all triangles that may reach into it. May say no without need, never yes wrongly (up to
+  /// slivers that double cannot tell from nothing).
+  ///
+  /// Proof: if all triangles are positively oriented, the number of triangles over a point changes only where
+  /// an edge is crossed, by −1 and +1; if each edge that meets the rectangle has its twin, it does not change
+  /// at all; so it is what it is at the centre.
+  static bool covered_once(const Mesh& mesh, const Sides& sides, std::span<const std::uint32_t> run, Vec2 low,
+                           Vec2 high);
+
+  void add_grid(const Mesh& mesh, const Sides& sides, std::span<const std::uint32_t> members, Vec2 low,
+                Vec2 high, int depth, std::uint32_t side);
   /// `side`, or a power of two less: the finest at which the members' boxes take at most `entries` cells
   /// each.
   static std::uint32_t fitting_side(const Mesh& mesh, std::span<const std::uint32_t> members, Vec2 low,
