@@ -131,7 +131,10 @@ CameraPose draw_pose(Draw& draw, const std::string& kind, const Terrain& terrain
   const double extent = std::max(terrain.width_m(), terrain.depth_m());
   const int range = static_cast<int>(extent) + 1;
   const auto ground_point = [&] {
-    return terrain.point(draw.whole(0, terrain.columns - 1), draw.whole(0, terrain.rows - 1));
+    // One draw a statement: arguments are evaluated in an order that each compiler chooses.
+    const int i = draw.whole(0, terrain.columns - 1);
+    const int j = draw.whole(0, terrain.rows - 1);
+    return terrain.point(i, j);
   };
   const Vec3 target = ground_point();
   Vec3 position;
@@ -162,8 +165,8 @@ CameraPose draw_pose(Draw& draw, const std::string& kind, const Terrain& terrain
   } else {  // away: the terrain is behind the camera or beside the picture
     const Vec3 below = ground_point();
     position = {below.x, below.y, terrain.highest_m() + draw.whole(1, 2 * range)};
-    return {whole(position.x, position.y, position.z),
-            whole(position.x + draw.whole(-range, range), position.y, position.z + draw.whole(1, range))};
+    const Vec3 ahead{position.x + draw.whole(-range, range), position.y, position.z + draw.whole(1, range)};
+    return {whole(position.x, position.y, position.z), whole(ahead.x, ahead.y, ahead.z)};
   }
   CameraPose pose{whole(position.x, position.y, position.z), whole(target.x, target.y, target.z)};
   if (pose.position == pose.look_at) pose.position.z += 1;
