@@ -66,6 +66,8 @@ struct TerrainSource {
 /// below 1.0014 over the 6° that are allowed. Evaluated here on correctly rounded sines, not by PROJ, whose
 /// libm differs from machine to machine.
 ///
+/// The spacing is rounded to 32 significant bits, so that every i·spacing_m is exact.
+///
 /// More than 16385 samples a side need `size` or `spacing_m`. What `crop` keeps is read alone; `resample`
 /// reads every k-th sample, k the least that brings both sides to 16385. Refused: rotated rasters; geographic
 /// ones of more than 6° or beyond 86° of latitude; more than 2³² samples or 2²⁰ a side.

@@ -463,6 +463,19 @@ TEST_F(Raster, LargeRasterIsCroppedAndDecimated) {
 
 // --- samples given inline --------------------------------------------------------------------------------
 
+TEST(Samples, StandOnExactMultiplesOfTheSpacing) {
+  TerrainSource source;
+  source.id = "third";
+  source.columns = source.rows = 2;
+  source.samples = {0, 0, 0, 0};
+  source.spacing_m = 1.0 / 3;
+  const double spacing_m = load_terrain(source).spacing_m;
+  EXPECT_NEAR(spacing_m, 1.0 / 3, 0x1p-33);
+  for (int i = 1; i < kMostSamplesASide; ++i) {
+    ASSERT_EQ(std::fma(i, spacing_m, -(i * spacing_m)), 0) << "i = " << i;  // what rounding left out
+  }
+}
+
 TEST(Samples, RowsFromTheSouth) {
   TerrainSource source;
   source.id = "t";

@@ -275,8 +275,12 @@ TEST(ShippedSuites, LoadAndCoverWhatTheyPromise) {
   EXPECT_FALSE(suite.terrains.at(0).file.empty()) << "the first terrain is real";
   std::set<std::string> methods;
   for (const MethodSpec& method : suite.methods) methods.insert(method.id);
-  EXPECT_EQ(methods, (std::set<std::string>{"block_bintree", "full", "restricted_quadtree"}));
+  EXPECT_EQ(methods,
+            (std::set<std::string>{"block_bintree", "full", "full:alternating", "restricted_quadtree"}));
   EXPECT_FALSE(suite.gates.empty());
+
+  const Suite steep = load_suite(kSuites / "steep.toml");
+  EXPECT_FALSE(steep.gates.empty());
 
   const Suite smoke = load_suite(kSuites / "smoke.toml");
   for (const TerrainSource& source : smoke.terrains)

@@ -15,7 +15,8 @@ interface Point {
   runs: number;
   update: Figure;     // ms a frame, median over all frames
   triangles: Figure;  // mean
-  p99: Figure;        // px, worst run
+  p99: Figure;        // px, median frame
+  p99Worst: Figure;   // px, worst frame
   max: Figure;        // px, worst run
   findings: number;
 }
@@ -35,7 +36,10 @@ function points(runs: Run[]): Point[] {
       update: median(group.flatMap((run) => timingOf.get(run.id)?.update_ms.frames ?? [])),
       triangles: frames === 0 ? null
         : group.reduce((sum, run) => sum + run.summary.triangles * run.summary.frames, 0) / frames,
-      p99: worst(group.map((run) => run.summary.displacement_px.p99)),
+      // The middle frame: one frame close to the ground, where a cell spans many pixels, must not stand for a flight.
+      p99: median(group.flatMap((run) => run.frames.map((frame) => frame.displacement_px.p99))
+        .filter((value): value is number => value !== null)),
+      p99Worst: worst(group.map((run) => run.summary.displacement_px.p99)),
       max: worst(group.map((run) => run.summary.displacement_px.max)),
       findings: group.reduce((sum, run) =>
         sum + Object.values(run.summary.conformity).reduce((all, count) => all + count, 0), 0),
@@ -71,7 +75,8 @@ function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Opti
         return tooltip(`${point.method}, τ = ${short(point.threshold)} px`, [
           ['update, median', `${short(point.update)} ms`],
           ['triangles, mean', short(point.triangles)],
-          ['displacement, p99', `${short(point.p99)} px`],
+          ['displacement, p99, median frame', `${short(point.p99)} px`],
+          ['displacement, p99, worst frame', `${short(point.p99Worst)} px`],
           ['displacement, max', `${short(point.max)} px`],
           ['findings', short(point.findings)],
           ['runs', short(point.runs)],
@@ -81,7 +86,7 @@ function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Opti
     xAxis: axis(x === 'update' ? 'update time per frame, median (ms)' : 'triangles per frame, mean', 'x', 'log', {
       min: xFloor, max: ceilingOf(all.map((point) => point[x]), xFloor),
     }),
-    yAxis: axis('p99 displacement, worst run (px)', 'y', 'log', {
+    yAxis: axis('p99 displacement, median frame (px)', 'y', 'log', {
       min: floor, max: ceilingOf(all.map((point) => point.p99), floor),
       axisLabel: {
         color: css('--muted'), fontSize: 12,
@@ -131,7 +136,7 @@ export function accuracySection(): HTMLElement {
   const charts = [speed, size];
   return section('accuracy', 'Speed against accuracy',
     el('p', { class: 'lead' }, 'Down and to the left is better. A curve joins one method’s thresholds τ; a hollow marker ' +
-      'means that the 99th percentile of the displacement lies above τ. Zero error stands on the axis’ floor.'),
+      'means that in the middle frame the 99th percentile of the displacement lies above τ. Zero error stands on the axis’ floor.'),
     controls(terrain, trajectory),
     el('div', { class: 'pair' },
       el('figure', {}, el('figcaption', {}, 'Update time against error'), speed.element),
