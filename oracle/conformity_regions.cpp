@@ -27,10 +27,10 @@
 namespace plumbline::oracle::detail {
 namespace {
 
-/// Beyond so many pieces, or pairs of pieces whose boxes meet, the arrangement would take minutes and
-/// gigabytes. Then each connected tangle of pieces is one finding.
-constexpr std::size_t kMostArranged = std::size_t{1} << 19;
-constexpr std::size_t kMostMeetings = std::size_t{1} << 21;
+/// Beyond so many pieces, or pairs of pieces whose boxes meet, an arrangement would take more than some ten seconds or
+/// a gigabyte. Then each connected tangle of pieces is one finding, of kind "tangled".
+constexpr std::size_t kMostArranged = std::size_t{1} << 18;
+constexpr std::size_t kMostMeetings = std::size_t{1} << 20;
 constexpr std::size_t kMostComparisons = std::size_t{1} << 28;
 
 double finite(double figure) { return std::isfinite(figure) ? figure : std::numeric_limits<double>::max(); }

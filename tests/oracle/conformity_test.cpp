@@ -388,6 +388,45 @@ TEST(Conformity, FindingsAreCountedCompletelyWhenThereAreVeryMany) {
   EXPECT_EQ(report.largest_gap_m, kCells);
 }
 
+TEST(Conformity, OneLongEdgeMayHaveVeryManyTVertices) {
+  //  ┌┬┬┬┬┬┬┬┬┬┐ 2
+  //  ├┴┴┴┴┴┴┴┴┴┤ 1   fine above, two triangles below
+  //  └─────────┘ 0
+  constexpr int kCells = 20000;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {kCells, 0, 0}, {kCells, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (int i = 0; i <= kCells; ++i) {
+    mesh.positions.insert(mesh.positions.end(), {{1.0 * i, 1, i % 3 == 1 ? 0.5 : 0.0}, {1.0 * i, 2, 0}});
+  }
+  for (std::uint32_t i = 0; i < kCells; ++i) {
+    const std::uint32_t a = 4 + 2 * i;
+    mesh.triangles.insert(mesh.triangles.end(), {{a, a + 2, a + 3}, {a, a + 3, a + 1}});
+  }
+  const ConformityReport report = check_conformity(mesh, rectangle({0, 0}, {kCells, 2}));
+  EXPECT_EQ(report.counts.t_junction, kCells - 1u);
+  EXPECT_EQ(report.counts.crack, (kCells + 1u) / 3);
+  EXPECT_EQ(report.findings.size(), kCells - 1u) << "a T-vertex with a gap is one finding under two counts";
+}
+
+TEST(Conformity, ATangleEndsWithOneFindingForEachOfItsPieces) {
+  // Triangles strewn at random, each across hundreds of others: too many crossings to lay them all out.
+  Random random(11);
+  Mesh mesh;
+  constexpr std::uint32_t kTriangles = 3000;
+  for (std::uint32_t t = 0; t < kTriangles; ++t) {
+    for (int k = 0; k < 3; ++k) mesh.positions.push_back({random.unit(), random.unit(), 0});
+    const Vec3 *a = &mesh.positions[3 * t], *b = a + 1, *c = a + 2;
+    const bool left = oracle::orientation({a->x, a->y}, {b->x, b->y}, {c->x, c->y}).value > 0;
+    mesh.triangles.push_back({3 * t, 3 * t + (left ? 1 : 2), 3 * t + (left ? 2 : 1)});
+  }
+  const ConformityReport report = check_conformity(mesh, rectangle({0, 0}, {1, 1}));
+  EXPECT_EQ(report.counts.overlap, kTriangles);
+  EXPECT_EQ(report.counts.outline, 1u);
+  EXPECT_EQ(report.counts.total(), kTriangles + 1u);
+  for (const Finding& f : report.findings) EXPECT_EQ(f.kind, "tangled");
+}
+
 TEST(Conformity, FindingsComeSorted) {
   Random random(5);
   const test::Surface s = test::random_grid(9, random);
