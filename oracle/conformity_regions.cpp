@@ -27,8 +27,8 @@
 namespace plumbline::oracle::detail {
 namespace {
 
-/// Beyond so many pieces, or pairs of pieces whose boxes meet, an arrangement would take more than some ten seconds or
-/// a gigabyte. Then each connected tangle of pieces is one finding, of kind "tangled".
+/// Beyond so many pieces, or pairs of pieces whose boxes meet, an arrangement would take more than some ten
+/// seconds or a gigabyte. Then each connected tangle of pieces is one finding, of kind "tangled".
 constexpr std::size_t kMostArranged = std::size_t{1} << 18;
 constexpr std::size_t kMostMeetings = std::size_t{1} << 20;
 constexpr std::size_t kMostComparisons = std::size_t{1} << 28;

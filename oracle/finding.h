@@ -13,8 +13,9 @@
 
 namespace plumbline::oracle {
 
-/// The catalogue of findings, numbered by layer (1xx input, 2xx edge and triangle, 3xx surface, 4xx hierarchy and
-/// laws, 5xx image). Numbers and names are stable: code, manual (docs/findings.md) and reports share this list.
+/// The catalogue of findings, numbered by layer (1xx input, 2xx edge and triangle, 3xx surface, 4xx hierarchy
+/// and laws, 5xx image). Numbers and names are stable: code, manual (docs/findings.md) and reports share this
+/// list.
 enum class FindingCode : int {
   bad_index = 101,
   non_finite = 102,
@@ -60,15 +61,15 @@ enum class Visibility {
 struct Finding {
   FindingCode code{};
   Severity severity = Severity::fault;
-  std::string kind;                       ///< finer than the code: "t_vertex", "height_mismatch", …; may be empty
-  Vec3 at;                                ///< metres
-  double gap_m = 0;                       ///< crack, t_junction: vertical distance; signed vertex minus edge
-  double gap_px = 0;                      ///< the same, seen from the camera; 0 without a camera
-  double area_m2 = 0;                     ///< hole, overlap, outline, fold_over
-  double distance_m = 0;                  ///< outline: largest distance to the promised outline
-  std::vector<std::uint32_t> vertices;    ///< indices into the mesh
-  std::vector<std::uint32_t> triangles;   ///< indices into the mesh
-  std::vector<Vec2> loop;                 ///< hole, overlap, outline: the region's boundary in plan
+  std::string kind;       ///< finer than the code: "t_vertex", "height_mismatch", …; may be empty
+  Vec3 at;                ///< metres
+  double gap_m = 0;       ///< crack, t_junction: vertical distance; signed vertex minus edge
+  double gap_px = 0;      ///< the same, seen from the camera; 0 without a camera
+  double area_m2 = 0;     ///< hole, overlap, outline, fold_over
+  double distance_m = 0;  ///< outline: largest distance to the promised outline
+  std::vector<std::uint32_t> vertices;   ///< indices into the mesh
+  std::vector<std::uint32_t> triangles;  ///< indices into the mesh
+  std::vector<Vec2> loop;                ///< hole, overlap, outline: the region's boundary in plan
   Visibility visibility = Visibility::unknown;
 };
 

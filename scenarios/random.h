@@ -7,8 +7,9 @@
 
 namespace plumbline {
 
-/// The house's one generator: SplitMix64 (Steele, Lea & Flood, OOPSLA 2014). Its sequence is specified, so the same
-/// seed gives the same terrain with every compiler and library; standard distributions do not promise that.
+/// The house's one generator: SplitMix64 (Steele, Lea & Flood, OOPSLA 2014). Its sequence is specified, so
+/// the same seed gives the same terrain with every compiler and library; standard distributions do not
+/// promise that.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -24,7 +24,8 @@ struct MethodSpec {
   Options options;
 };
 
-/// One limit of `[gate]`: the figure's path in a run's summary ("crack", "displacement_px.p99") against a bound.
+/// One limit of `[gate]`: the figure's path in a run's summary ("crack", "displacement_px.p99") against a
+/// bound.
 struct GateSpec {
   std::string figure;
   std::string method;      ///< empty: every method
@@ -46,8 +47,9 @@ struct Suite {
   std::vector<GateSpec> gates;
 };
 
-/// Reads a suite file (TOML, CONTRACT "Suite file"). Throws InputError naming file, line and the nearest known key for
-/// an unknown key, a wrong type, a duplicate id, a threshold that is not positive and finite, an empty list.
+/// Reads a suite file (TOML, CONTRACT "Suite file"). Throws InputError naming file, line and the nearest
+/// known key for an unknown key, a wrong type, a duplicate id, a threshold that is not positive and finite,
+/// an empty list.
 Suite load_suite(const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -11,12 +11,12 @@
 
 namespace plumbline {
 
-/// A height grid: `columns` × `rows` samples, square spacing. Sample (i, j) stands at (i·spacing, j·spacing) metres
-/// east and north of the south-west sample, which is the origin of the local frame. Every sample is finite: holes were
-/// settled by the loader's policy (see terrain_source.h).
+/// A height grid: `columns` × `rows` samples, square spacing. Sample (i, j) stands at (i·spacing, j·spacing)
+/// metres east and north of the south-west sample, which is the origin of the local frame. Every sample is
+/// finite: holes were settled by the loader's policy (see terrain_source.h).
 ///
-/// The reference surface is piecewise linear: each cell is split by the diagonal from its (i, j) to its (i+1, j+1)
-/// corner (METHODS, notation).
+/// The reference surface is piecewise linear: each cell is split by the diagonal from its (i, j) to its (i+1,
+/// j+1) corner (METHODS, notation).
 struct Terrain {
   std::string id;
   int columns = 0;
@@ -32,15 +32,16 @@ struct Terrain {
   [[nodiscard]] double width_m() const { return (columns - 1) * spacing_m; }
   [[nodiscard]] double depth_m() const { return (rows - 1) * spacing_m; }
 
-  /// Height of the reference surface at (x, y), metres. Points outside the grid take the nearest border point's height.
+  /// Height of the reference surface at (x, y), metres. Points outside the grid take the nearest border
+  /// point's height.
   [[nodiscard]] double surface_height_m(double x, double y) const;
   /// Least and greatest sample, metres.
   [[nodiscard]] double lowest_m() const;
   [[nodiscard]] double highest_m() const;
 };
 
-/// The reference surface as an indexed mesh: vertex (i, j) has index j·columns + i; two counter-clockwise triangles a
-/// cell, south-east one first, cells in row-major order.
+/// The reference surface as an indexed mesh: vertex (i, j) has index j·columns + i; two counter-clockwise
+/// triangles a cell, south-east one first, cells in row-major order.
 Mesh reference_mesh(const Terrain& terrain);
 
 /// The rectangle of all samples.

@@ -7,8 +7,8 @@
 
 namespace plumbline {
 
-/// Writes a file whole or not at all: the bytes go to a temporary name beside it, which then takes its place. Missing
-/// folders are made. Throws InputError ("cannot write …") and leaves nothing behind if that fails.
+/// Writes a file whole or not at all: the bytes go to a temporary name beside it, which then takes its place.
+/// Missing folders are made. Throws InputError ("cannot write …") and leaves nothing behind if that fails.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace plumbline
