@@ -70,14 +70,14 @@ std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& ru
   for (const auto& [method, members] : families) {
     const MethodChoice choice = find_method(method);
     if (choice.promises(Promise::threshold_blind)) continue;
-    const auto same_count = [&](const verdict::RunVerdict* run) {
-      return run->summary.triangles_min == members.front()->summary.triangles_min &&
-             run->summary.triangles_max == members.front()->summary.triangles_min;
+    const std::size_t triangles = members.front()->summary.triangles_min;
+    const auto same_count = [triangles](const verdict::RunVerdict* run) {
+      return run->summary.triangles_min == triangles && run->summary.triangles_max == triangles;
     };
     const std::size_t judged_frames = members.front()->summary.frames * members.size();
     if (judged_frames > 1 && std::all_of(members.begin(), members.end(), same_count)) {
       out.push_back(fmt::format("{}: one level of detail: {} triangles in every frame at every threshold",
-                                method, members.front()->summary.triangles_min));
+                                method, triangles));
     }
   }
   return out;
