@@ -443,36 +443,5 @@ TEST(Conformity, FindingsComeSorted) {
       }));
 }
 
-TEST(Predicates, EasyTurnsAreDecidedInDouble) {
-  const oracle::Sign sign = oracle::orientation({0, 0}, {1, 0}, {0, 1});
-  EXPECT_EQ(sign.value, 1);
-  EXPECT_EQ(sign.by, oracle::DecidedBy::double_filter);
-  EXPECT_EQ(oracle::orientation({0, 0}, {0, 1}, {1, 0}).value, -1);
-}
-
-TEST(Predicates, HardTurnsAreDecidedExactly) {
-  // 0.1 + 0.2 is not 0.3: the three points miss a line by less than double sees in the determinant.
-  const Vec2 a{0.1, 0.1}, b{0.2, 0.2}, c{0.1 + 0.2, std::nextafter(0.1 + 0.2, 1)};
-  const oracle::Sign sign = oracle::orientation(a, b, c);
-  EXPECT_EQ(sign.value, 1);
-  EXPECT_EQ(oracle::orientation(b, a, c).value, -1);
-  const oracle::Sign flat = oracle::orientation({0.1, 0.1}, {0.7, 0.7}, {0.3, 0.3});
-  EXPECT_EQ(flat.value, 0);
-  EXPECT_EQ(flat.by, oracle::DecidedBy::exact);
-}
-
-TEST(Predicates, ProductsThatUnderflowAreDecidedExactly) {
-  constexpr double tiny = std::numeric_limits<double>::denorm_min();
-  const oracle::Sign sign = oracle::orientation({0, 0}, {tiny, 0}, {0, tiny});
-  EXPECT_EQ(sign.value, 1);
-  EXPECT_EQ(sign.by, oracle::DecidedBy::exact);
-}
-
-TEST(Predicates, ProductsThatOverflowAreDecidedExactly) {
-  constexpr double most = std::numeric_limits<double>::max();
-  EXPECT_EQ(oracle::orientation({-most, -most}, {most, -most}, {most, most}).value, 1);
-  EXPECT_EQ(oracle::orientation({-most, -most}, {most, most}, {0, 0}).value, 0);
-}
-
 }  // namespace
 }  // namespace plumbline
