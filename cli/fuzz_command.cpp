@@ -11,6 +11,7 @@
 #include "properties/atlas/case_file.h"
 #include "properties/fuzz/fuzz.h"
 #include "scenarios/error.h"
+#include "scenarios/whole_file.h"
 
 namespace plumbline::cli {
 namespace {
@@ -50,6 +51,7 @@ int run_fuzz(FuzzArguments& arguments) {
   if (options.seconds == 0 && options.cases == 0) options.seconds = 60;
   options.out = arguments.out;
   options.cancelled = &interrupted();
+  if (!options.out.empty()) require_writable(options.out);  // a hunt must not lose what it finds
   properties::FuzzReport report;
   {
     ProgressTicker ticker("fuzz", arguments.quiet);

@@ -22,29 +22,47 @@ struct RunArguments {
   std::string suite;
   std::string out = "out";
   int jobs = 0;
-  std::vector<std::string> methods;
+  std::string methods;
   std::string isa;
   bool dump_meshes = false;
   bool no_pictures = false;
   bool quiet = false;
 };
 
-/// A report that cannot be written should be known before the flights, not after.
-void probe_writable(const std::filesystem::path& folder) {
-  const std::filesystem::path probe = folder / ".plumbline-probe";
-  write_whole_file(probe, "");
-  std::filesystem::remove(probe);
+/// "a, b" as {"a", "b"}.
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> items;
+  std::string item;
+  for (const char c : text + ",") {
+    if (c == ',') {
+      if (!item.empty()) items.push_back(item);
+      item.clear();
+    } else if (c != ' ') {
+      item += c;
+    }
+  }
+  return items;
+}
+
+/// The line that repeats the run; threads and folders change no figure, so they are left out.
+std::string repeat_line(const RunArguments& arguments) {
+  std::string line = fmt::format("plumbline run {}", arguments.suite);
+  if (!arguments.methods.empty()) {
+    line += fmt::format(" --methods {}", fmt::join(split_list(arguments.methods), ","));
+  }
+  return line;
 }
 
 int run(const RunArguments& arguments) {
   const Suite suite = load_suite(arguments.suite);
   const std::filesystem::path out = arguments.out;
-  const bool existed = std::filesystem::exists(out);
-  probe_writable(out);
+  std::error_code unreadable;  // require_writable tells what is wrong with the folder
+  const bool existed = std::filesystem::exists(out, unreadable);
+  require_writable(out);  // known before the flights, not after
 
   RunOptions options;
   options.jobs = arguments.jobs;
-  options.methods = arguments.methods;
+  options.methods = split_list(arguments.methods);
   options.isa = arguments.isa;
   options.pictures = !arguments.no_pictures;
   options.cancelled = &interrupted();
@@ -60,8 +78,7 @@ int run(const RunArguments& arguments) {
       std::filesystem::remove(out, ignored);  // only if empty: a refused run leaves nothing behind
     throw;
   }
-  reports::write_reports(outcome.verdict, outcome.timing, outcome.pictures, out,
-                         fmt::format("plumbline run {}", arguments.suite));
+  reports::write_reports(outcome.verdict, outcome.timing, outcome.pictures, out, repeat_line(arguments));
   const bool pass = outcome.verdict.pass();
   if (!arguments.quiet) {
     fmt::print("{}", reports::summary_md(outcome.verdict, outcome.timing));
@@ -80,7 +97,8 @@ void add_run(CLI::App& program, int& status) {
   command->add_option("suite", arguments->suite, "suite file (TOML)")->required();
   command->add_option("--out", arguments->out, "folder for the report")->capture_default_str();
   command->add_option("--jobs", arguments->jobs, "threads; 0: one a core")->check(CLI::Range(0, 1024));
-  command->add_option("--methods", arguments->methods, "only these methods of the suite")->delimiter(',');
+  command->add_option("--methods", arguments->methods,
+                      "only these methods of the suite, separated by commas");
   command->add_option(
       "--isa", arguments->isa,
       "limit Embree's instruction set: sse2, avx, avx2, avx512 (the figures do not depend on it)");

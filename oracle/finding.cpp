@@ -125,8 +125,12 @@ const std::vector<FindingDescription>& finding_catalogue() {
 )"},
       {law_violated, "law_violated", "A law that the method promises does not hold on this input."},
       {error_over_threshold, "error_over_threshold",
-       "The measured displacement in the picture is above the threshold that the method was given."},
-      {uncovered, "uncovered", "Pixels whose reference point has no point of the mesh above or below it."},
+       "The measured displacement in the picture is above the threshold that the method was given. A figure "
+       "of each frame (displacement_px.over_threshold, the share of pixels) that a gate may limit; not "
+       "listed place by place."},
+      {uncovered, "uncovered",
+       "Pixels whose reference point has no point of the mesh above or below it. A figure of each frame "
+       "(displacement_px.uncovered_px) that a gate may limit; not listed place by place."},
   };
   return catalogue;
 }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,8 +19,10 @@ namespace plumbline::oracle {
 class FigureBuilder {
  public:
   explicit FigureBuilder(std::size_t most) : buckets_(kBuckets, 0) { values_.reserve(most); }
-  /// Requires: value >= +0 and not NaN.
+  /// Requires: value >= +0. What overflowed on its way (a NaN too) counts as infinite: no finite figure hides
+  /// it.
   void add(double value) {
+    if (!(value < std::numeric_limits<double>::infinity())) value = std::numeric_limits<double>::infinity();
     values_.push_back(value);
     ++buckets_[bucket_of(value)];
     row_sum_ += value;

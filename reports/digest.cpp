@@ -91,13 +91,13 @@ VerdictWords verdict_in_words(const verdict::SuiteVerdict& verdict) {
   const auto sound = std::ranges::count_if(methods, &MethodDigest::sound);
   const auto failed = std::ranges::count_if(verdict.gates, [](const auto& gate) { return !gate.pass; });
   VerdictWords words;
-  words.headline = methods.empty() ? "No method was run"
+  words.headline = methods.empty() ? "No run was finished"
                                    : fmt::format("{} of {} sound", sound,
                                                  counted(methods.size(), "method is", "methods are"));
   if (methods.size() == 1 && sound == 1) words.headline = fmt::format("{} is sound", methods[0].method);
   if (methods.size() == 1 && sound == 0) words.headline = fmt::format("{} is not sound", methods[0].method);
   if (verdict.gates.empty()) {
-    words.headline += "; the suite sets no gate";
+    words.headline += "; no gate was judged";
   } else if (failed == 0) {
     words.headline += verdict.gates.size() == 1 ? "; the one gate holds"
                                                 : fmt::format("; all {} gates hold", verdict.gates.size());
@@ -105,7 +105,8 @@ VerdictWords verdict_in_words(const verdict::SuiteVerdict& verdict) {
     words.headline +=
         fmt::format("; {} of {} failed", failed, counted(verdict.gates.size(), "gate", "gates"));
   }
-  if (verdict.interrupted) words.sentences.emplace_back("Interrupted: runs are missing or short.");
+  if (verdict.interrupted)
+    words.sentences.emplace_back("Interrupted: only the runs that were finished are here.");
   for (const std::string& why : verdict.vacuous) words.sentences.push_back("Nothing judged: " + why);
   for (const MethodDigest& method : methods)
     if (method.conformity.total() > 0) words.sentences.push_back(method_sentence(method));

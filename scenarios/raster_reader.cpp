@@ -233,7 +233,8 @@ void RasterReader::Impl::read_values() {
   if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) {
     refuse(fmt::format("has band scale {} and offset {}; mend them", scale, offset));
   }
-  if ((band->GetMaskFlags() & GMF_PER_DATASET) != 0) mask = band->GetMaskBand();
+  // A mask of the data set's or of the band's own; no-data values are looked at as values.
+  if ((band->GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0) mask = band->GetMaskBand();
   const std::string unit = band->GetUnitType();
   const OGRSpatialReference* reference = dataset->GetSpatialRef();
   if (unit.empty() && reference != nullptr && reference->IsCompound()) {

@@ -50,4 +50,11 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
   }
 }
 
+void require_writable(const std::filesystem::path& folder) {
+  const std::filesystem::path probe = folder / ".plumbline-probe";
+  write_whole_file(probe, "");
+  std::error_code ignored;
+  std::filesystem::remove(probe, ignored);
+}
+
 }  // namespace plumbline

@@ -3,8 +3,10 @@
 
 #include "properties/fuzz/fuzz.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -62,6 +64,9 @@ class Campaign {
     }
   }
 
+  void share_time_with(std::ptrdiff_t campaigns) {
+    seconds_ /= static_cast<double>(std::max<std::ptrdiff_t>(campaigns, 1));
+  }
   [[nodiscard]] bool has_laws() const { return !laws_.empty(); }
   std::vector<LawTally>& tallies() { return tallies_; }
   [[nodiscard]] std::uint64_t cases() const { return cases_; }
@@ -181,9 +186,11 @@ FuzzReport fuzz(const FuzzOptions& options) {
   FuzzReport report;
   report.seed = options.seed;
   std::vector<Campaign> campaigns;
-  for (const std::string& method : methods) {
-    campaigns.emplace_back(options, method, start, options.seconds / static_cast<double>(methods.size()));
-  }
+  for (const std::string& method : methods) campaigns.emplace_back(options, method, start, options.seconds);
+  // Each that has something to try gets an equal share of the time.
+  const auto trying =
+      std::count_if(campaigns.begin(), campaigns.end(), [](const Campaign& c) { return c.has_laws(); });
+  for (Campaign& campaign : campaigns) campaign.share_time_with(trying);
   bool any = false;
   for (const Campaign& campaign : campaigns) any = any || campaign.has_laws();
   if (!any) {

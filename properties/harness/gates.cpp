@@ -4,7 +4,9 @@
 #include "properties/harness/gates.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,10 +22,36 @@ bool holds(double value, const std::string& comparison, double limit) {
   return value == limit;
 }
 
+/// Whether the run measured anything for this figure; a limit on nothing must not hold (ORACLES, "Never
+/// vacuous").
+bool was_judged(const verdict::RunSummary& summary, std::string_view figure) {
+  const auto of = [figure](std::string_view group) { return figure.substr(0, group.size()) == group; };
+  if (of("vertical_m.")) return summary.vertical_m.area_m2 > 0;
+  if (figure == "displacement_px.uncovered_px") {
+    return summary.image.displacement_px.count + summary.image.uncovered_px > 0;
+  }
+  if (of("displacement_px.")) return summary.image.displacement_px.count > 0;
+  if (of("depth_rel.")) return summary.image.depth_rel.count > 0;
+  if (of("pop_px."))
+    return summary.pop_px.count > 0 || summary.frames == 1;  // one frame has nothing to pop from
+  return summary.frames > 0;
+}
+
+/// What holds where a suite asks for nothing: a forgotten gate table must not turn findings green.
+std::vector<GateSpec> default_gates() {
+  std::vector<GateSpec> gates;
+  for (const char* figure : {"crack", "t_junction", "fold_over", "degenerate", "hole", "overlap", "outline",
+                             "non_manifold", "duplicate", "non_finite", "bad_index", "unused_vertex"}) {
+    gates.push_back({figure, "", "==", 0, false, fmt::format("{} == 0, by default", figure)});
+  }
+  return gates;
+}
+
 }  // namespace
 
-std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& gates,
+std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& asked,
                                               const std::vector<verdict::RunVerdict>& runs) {
+  const std::vector<GateSpec> gates = asked.empty() ? default_gates() : asked;
   std::vector<verdict::GateVerdict> out;
   for (const verdict::RunVerdict& run : runs) {
     for (const GateSpec& gate : gates) {
@@ -41,6 +69,10 @@ std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& gates
                                     : fmt::format("{} {}", gate.comparison, limit);
       judged.value = verdict::figure_value(run.summary, gate.figure);
       judged.pass = holds(judged.value, gate.comparison, limit);
+      if (!was_judged(run.summary, gate.figure)) {
+        judged.value = std::numeric_limits<double>::quiet_NaN();
+        judged.pass = false;
+      }
       out.push_back(std::move(judged));
     }
   }
@@ -50,8 +82,8 @@ std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& gates
 std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& runs) {
   std::vector<std::string> out;
   if (runs.empty()) out.emplace_back("no run: nothing was judged");
-  // Mean triangles of each threshold, by what else the run was made of.
-  std::map<std::string, std::vector<const verdict::RunVerdict*>> families;
+  std::map<std::string, std::map<std::string, std::vector<const verdict::RunVerdict*>>>
+      families;  // method, terrain
   for (const verdict::RunVerdict& run : runs) {
     const verdict::RunSummary& summary = run.summary;
     if (summary.frames == 0) {
@@ -65,19 +97,22 @@ std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& ru
     if (summary.image.displacement_px.count == 0)
       out.push_back(fmt::format("{}: no pixel to measure", run.id));
     if (!(summary.vertical_m.area_m2 > 0)) out.push_back(fmt::format("{}: no area to measure", run.id));
-    families[run.method].push_back(&run);
+    families[run.method][run.terrain].push_back(&run);
   }
-  for (const auto& [method, members] : families) {
-    const MethodChoice choice = find_method(method);
-    if (choice.promises(Promise::threshold_blind)) continue;
-    const std::size_t triangles = members.front()->summary.triangles_min;
-    const auto same_count = [triangles](const verdict::RunVerdict* run) {
-      return run->summary.triangles_min == triangles && run->summary.triangles_max == triangles;
-    };
-    const std::size_t judged_frames = members.front()->summary.frames * members.size();
-    if (judged_frames > 1 && std::all_of(members.begin(), members.end(), same_count)) {
-      out.push_back(fmt::format("{}: one level of detail: {} triangles in every frame at every threshold",
-                                method, triangles));
+  for (const auto& [method, grounds] : families) {
+    if (find_method(method).promises(Promise::threshold_blind)) continue;
+    // A flat terrain may need one level; a method that shows one on every terrain of the suite has no levels.
+    std::size_t frames = 0;
+    const bool one_level = std::all_of(grounds.begin(), grounds.end(), [&](const auto& ground) {
+      const std::size_t triangles = ground.second.front()->summary.triangles_min;
+      return std::all_of(ground.second.begin(), ground.second.end(), [&](const verdict::RunVerdict* run) {
+        frames += run->summary.frames;
+        return run->summary.triangles_min == triangles && run->summary.triangles_max == triangles;
+      });
+    });
+    if (one_level && frames > grounds.size()) {
+      out.push_back(fmt::format(
+          "{}: one level of detail: the same number of triangles in every frame at every threshold", method));
     }
   }
   return out;

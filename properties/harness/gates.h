@@ -11,8 +11,9 @@
 namespace plumbline {
 
 /// Holds every run to the suite's limits. A gate that names a method replaces the general gate on the same
-/// figure for that method.
-std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& gates,
+/// figure for that method. A suite without gates is held to a clean conformity. A limit on a figure that
+/// nothing was measured for does not hold; its value is NaN.
+std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& asked,
                                               const std::vector<verdict::RunVerdict>& runs);
 
 /// What passed without having been judged (ORACLES, "Never vacuous"), one line each: no run at all, a run

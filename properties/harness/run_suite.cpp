@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -50,18 +51,21 @@ struct Stage {
   std::vector<std::vector<std::vector<Camera>>> cameras;          ///< [terrain][trajectory][frame]
 };
 
+/// The suite's methods that are wanted, in the suite's order.
 std::vector<MethodSpec> kept_methods(const Suite& suite, const std::vector<std::string>& wanted) {
   if (wanted.empty()) return suite.methods;
-  std::vector<MethodSpec> kept;
   for (const std::string& id : wanted) {
-    const auto found = std::find_if(suite.methods.begin(), suite.methods.end(),
-                                    [&](const MethodSpec& spec) { return spec.id == id; });
-    if (found == suite.methods.end()) {
-      find_method(id);  // an unknown method has its own, clearer message
-      throw InputError(
-          fmt::format("--methods: {} is not in suite {}; add a [[method]] with this id", id, suite.name));
+    if (std::any_of(suite.methods.begin(), suite.methods.end(),
+                    [&](const MethodSpec& spec) { return spec.id == id; })) {
+      continue;
     }
-    kept.push_back(*found);
+    find_method(id);  // an unknown method has its own, clearer message
+    throw InputError(
+        fmt::format("--methods: {} is not in suite {}; add a [[method]] with this id", id, suite.name));
+  }
+  std::vector<MethodSpec> kept;
+  for (const MethodSpec& spec : suite.methods) {
+    if (std::find(wanted.begin(), wanted.end(), spec.id) != wanted.end()) kept.push_back(spec);
   }
   return kept;
 }
@@ -170,35 +174,54 @@ void fly(const Stage& stage, std::size_t terrain, std::size_t trajectory, const 
   for (std::size_t e = 0; e < flights.size(); ++e) runs[e].summary = verdict::summarize(runs[e].frames);
 }
 
-/// For each terrain and method: the run at the middle threshold whose worst frame is worst; first among
-/// equals.
+/// A frame of one run, by the run's place in the suite.
+struct Scene {
+  const verdict::RunVerdict* run = nullptr;
+  int frame = 0;
+  std::size_t flight = 0, entry = 0;
+};
+
+/// What to show of a method over a terrain: the frame with the widest visible crack or, where there is none,
+/// the frame with the largest p99 displacement at the method's middle threshold; the first among equals.
+Scene worst_scene(const Stage& stage, const verdict::SuiteVerdict& verdict, std::size_t terrain,
+                  std::size_t spec) {
+  std::vector<std::size_t> mine;
+  for (std::size_t e = 0; e < stage.entries.size(); ++e) {
+    if (stage.entries[e].spec_index == spec) mine.push_back(e);
+  }
+  const std::size_t flights = stage.suite->trajectories.size();
+  Scene widest, farthest;
+  double gap_px = 0;
+  for (std::size_t k = 0; k < flights; ++k) {
+    for (const std::size_t e : mine) {
+      const verdict::RunVerdict& run = verdict.runs[(terrain * flights + k) * stage.entries.size() + e];
+      for (const verdict::FrameVerdict& frame : run.frames) {
+        if (frame.largest_gap_px > gap_px) {
+          gap_px = frame.largest_gap_px;
+          widest = {&run, frame.index, k, e};
+        }
+      }
+      if (e != mine[mine.size() / 2] || run.frames.empty()) continue;
+      if (farthest.run == nullptr ||
+          run.summary.image.displacement_px.p99 > farthest.run->summary.image.displacement_px.p99) {
+        farthest = {&run, run.summary.worst_frame, k, e};
+      }
+    }
+  }
+  return widest.run != nullptr ? widest : farthest;
+}
+
 std::vector<verdict::FramePictures> draw_worst(const Stage& stage, const verdict::SuiteVerdict& verdict,
                                                const oracle::RayDevice& device) {
   std::vector<PictureOrder> orders;
-  const std::size_t flights = stage.suite->trajectories.size();
   for (std::size_t t = 0; t < stage.terrains.size(); ++t) {
     for (std::size_t s = 0; s < stage.specs.size(); ++s) {
-      std::vector<std::size_t> mine;
-      for (std::size_t e = 0; e < stage.entries.size(); ++e) {
-        if (stage.entries[e].spec_index == s) mine.push_back(e);
-      }
-      if (mine.empty()) continue;
-      const std::size_t entry = mine[mine.size() / 2];
-      const verdict::RunVerdict* worst = nullptr;
-      std::size_t worst_flight = 0;
-      for (std::size_t k = 0; k < flights; ++k) {
-        const verdict::RunVerdict& run = verdict.runs[(t * flights + k) * stage.entries.size() + entry];
-        if (run.frames.empty()) continue;
-        if (worst == nullptr ||
-            run.summary.image.displacement_px.p99 > worst->summary.image.displacement_px.p99) {
-          worst = &run;
-          worst_flight = k;
-        }
-      }
-      if (worst == nullptr) continue;
-      orders.push_back({worst->id, worst->threshold_px, worst->summary.worst_frame, &stage.terrains[t],
-                        &stage.cameras[t][worst_flight],
-                        [&stage, t, entry] { return new_flyer(stage, t, stage.entries[entry]); }});
+      const Scene scene = worst_scene(stage, verdict, t, s);
+      if (scene.run == nullptr) continue;
+      orders.push_back({scene.run->id, scene.run->threshold_px, scene.frame, &stage.terrains[t],
+                        &stage.cameras[t][scene.flight], [&stage, t, entry = scene.entry] {
+                          return new_flyer(stage, t, stage.entries[entry]);
+                        }});
     }
   }
   std::vector<verdict::FramePictures> pictures(orders.size());
@@ -284,6 +307,10 @@ SuiteOutcome run_in_arena(const Suite& suite, const RunOptions& options, int job
 SuiteOutcome run_suite(const Suite& suite, const RunOptions& options) {
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   SuiteOutcome outcome;
+  // Lifts the library's own limit: more jobs than cores are for the user to ask for, and for tests of
+  // determinism.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(jobs));
   tbb::task_arena arena(jobs);
   arena.execute([&] { outcome = run_in_arena(suite, options, jobs); });
   return outcome;

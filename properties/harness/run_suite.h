@@ -28,8 +28,7 @@ struct RunOptions {
 struct SuiteOutcome {
   verdict::SuiteVerdict verdict;
   verdict::SuiteTiming timing;
-  std::vector<verdict::FramePictures>
-      pictures;  ///< for each terrain and method: the worst frame at the middle threshold
+  std::vector<verdict::FramePictures> pictures;  ///< for each terrain and method its worst frame
 };
 
 /// Flies every method over every terrain, trajectory and threshold of the suite and judges each frame with

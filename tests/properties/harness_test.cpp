@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -47,6 +49,7 @@ verdict::RunVerdict run_with(const std::string& method, double threshold_px, std
   run.summary.frames = 1;
   run.summary.conformity.crack = cracks;
   run.summary.image.displacement_px.p99 = 3;
+  run.summary.image.displacement_px.count = 100;
   return run;
 }
 
@@ -167,8 +170,40 @@ TEST(Vacuous, OneLevelOfDetailAtEveryThresholdIsAFailure) {
   EXPECT_THAT(find_vacuous(runs), testing::IsEmpty());
 }
 
+TEST(Gates, SuiteWithoutGatesIsHeldToACleanMesh) {
+  const auto judged = judge_gates({}, {run_with("full", 1, 0), run_with("block_bintree", 1, 2)});
+  ASSERT_EQ(judged.size(), 24u);
+  EXPECT_TRUE(std::all_of(judged.begin(), judged.begin() + 12, [](const auto& gate) { return gate.pass; }));
+  EXPECT_FALSE(judged[12].pass) << judged[12].name;
+}
+
+TEST(Gates, LimitOnWhatNothingWasMeasuredForDoesNotHold) {
+  const std::vector<GateSpec> gates{
+      {"displacement_px.p99", "", "<=", 1, true, "displacement_px.p99 <= 1 tau"}};
+  verdict::RunVerdict run = run_with("full", 4, 0);
+  run.summary.image.displacement_px.count = 0;
+  run.summary.image.uncovered_px = 9;
+  const auto judged = judge_gates(gates, {run});
+  ASSERT_EQ(judged.size(), 1u);
+  EXPECT_FALSE(judged[0].pass);
+  EXPECT_TRUE(std::isnan(judged[0].value));
+}
+
+TEST(Vacuous, OneLevelOnEachOfTwoTerrainsIsAFailure) {
+  std::vector<verdict::RunVerdict> runs{
+      run_with("restricted_quadtree", 1, 0), run_with("restricted_quadtree", 8, 0),
+      run_with("restricted_quadtree", 1, 0), run_with("restricted_quadtree", 8, 0)};
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    runs[r].terrain = r < 2 ? "small" : "large";
+    runs[r].summary.triangles_min = runs[r].summary.triangles_max = r < 2 ? 32 : 128;
+    runs[r].summary.vertical_m.area_m2 = 1;
+  }
+  EXPECT_THAT(find_vacuous(runs), testing::ElementsAre(testing::HasSubstr("one level of detail")));
+}
+
 TEST(Vacuous, NothingInThePictureIsAFailure) {
   std::vector<verdict::RunVerdict> runs{run_with("full", 1, 0)};
+  runs[0].summary.image.displacement_px.count = 0;
   runs[0].summary.triangles_max = 2;
   runs[0].summary.vertical_m.area_m2 = 1;
   EXPECT_THAT(find_vacuous(runs), testing::ElementsAre(testing::HasSubstr("no pixel")));

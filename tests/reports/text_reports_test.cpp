@@ -176,8 +176,8 @@ TEST(Digest, HeadlineCountsSoundMethodsAndGates) {
 TEST(Digest, MethodWithoutAFrameIsNotSound) {
   verdict::SuiteVerdict verdict;
   verdict.runs.emplace_back().method = "full";
-  EXPECT_EQ(verdict_in_words(verdict).headline, "full is not sound; the suite sets no gate");
-  EXPECT_EQ(verdict_in_words({}).headline, "No method was run; the suite sets no gate");
+  EXPECT_EQ(verdict_in_words(verdict).headline, "full is not sound; no gate was judged");
+  EXPECT_EQ(verdict_in_words({}).headline, "No run was finished; no gate was judged");
 }
 
 TEST(Digest, VisibleFindingIsWorseThanALargerHiddenOne) {

@@ -50,7 +50,7 @@ function picturesSection(): HTMLElement | null {
   const panel = (source: string, caption: string) =>
     el('figure', {}, enlargeable(source, caption), el('figcaption', {}, caption));
   return section('pictures', 'Pictures',
-    el('p', { class: 'lead' }, 'The frame with the largest p99 displacement of a run. The middle picture shows each ' +
+    el('p', { class: 'lead' }, 'The frame with the widest visible crack or, where there is none, with the largest p99 displacement. The middle picture shows each ' +
       'pixel’s displacement from 0 to 2 τ (viridis), red beyond; the bar’s long mark is τ; grey pixels were not judged.'),
     ...facts.pictures.map((picture) => el('article', { class: 'triptych' },
       el('h3', {}, picture.run, el('span', {}, ` frame ${picture.frame}, τ = ${short(picture.threshold_px)} px`)),

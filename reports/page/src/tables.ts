@@ -111,7 +111,7 @@ export function findingsSection(): HTMLElement {
   const all: Located[] = results.runs.flatMap((run) => run.frames.flatMap((frame) =>
     frame.findings.map((finding) => ({ run, frame, finding })))).sort(byBadness);
   const id = 'findings', title = 'Worst findings';
-  if (all.length === 0) return section(id, title, el('p', { class: 'lead' }, 'No finding in any frame.'));
+  if (all.length === 0) return section(id, title, el('p', { class: 'lead' }, results.runs.length === 0 ? 'No frame was judged.' : 'No finding in any frame.'));
   const holder = el('div', {});
   const draw = () => {
     const rows = all.filter(({ run, finding }) => (method.value() === '' || run.method === method.value()) &&
