@@ -12,7 +12,6 @@
 #include "cli/progress.h"
 #include "properties/harness/run_suite.h"
 #include "reports/report.h"
-#include "scenarios/error.h"
 #include "scenarios/whole_file.h"
 
 namespace plumbline::cli {
@@ -56,8 +55,6 @@ std::string repeat_line(const RunArguments& arguments) {
 int run(const RunArguments& arguments) {
   const Suite suite = load_suite(arguments.suite);
   const std::filesystem::path out = arguments.out;
-  std::error_code unreadable;  // require_writable tells what is wrong with the folder
-  const bool existed = std::filesystem::exists(out, unreadable);
   require_writable(out);  // known before the flights, not after
 
   RunOptions options;
@@ -68,15 +65,10 @@ int run(const RunArguments& arguments) {
   options.cancelled = &interrupted();
   if (arguments.dump_meshes) options.mesh_folder = out / "meshes";
   SuiteOutcome outcome;
-  try {
+  {
     ProgressLine line(suite.name, "frames", arguments.quiet);
     options.progress = [&line](std::size_t done, std::size_t total) { line.show(done, total); };
     outcome = run_suite(suite, options);
-  } catch (const InputError&) {
-    std::error_code ignored;
-    if (!existed)
-      std::filesystem::remove(out, ignored);  // only if empty: a refused run leaves nothing behind
-    throw;
   }
   reports::write_reports(outcome.verdict, outcome.timing, outcome.pictures, out, repeat_line(arguments));
   const bool pass = outcome.verdict.pass();

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -51,10 +52,17 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
 }
 
 void require_writable(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> missing;  // deepest first
+  for (std::filesystem::path part = folder; !part.empty() && !std::filesystem::exists(part, ignored);
+       part = part.parent_path()) {
+    missing.push_back(part);
+  }
   const std::filesystem::path probe = folder / ".plumbline-probe";
   write_whole_file(probe, "");
-  std::error_code ignored;
   std::filesystem::remove(probe, ignored);
+  // Whether the work will be refused for another reason is not known yet: then nothing may be left behind.
+  for (const std::filesystem::path& part : missing) std::filesystem::remove(part, ignored);
 }
 
 }  // namespace plumbline

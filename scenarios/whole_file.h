@@ -11,8 +11,9 @@ namespace plumbline {
 /// Missing folders are made. Throws InputError ("cannot write …") and leaves nothing behind if that fails.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Whether files can be written into the folder, asked before long work rather than after it; the folder is
-/// made if it is missing. Throws InputError as write_whole_file does.
+/// Whether files can be written into the folder, asked before long work rather than after it. Leaves
+/// everything as it was: a missing folder is made and removed again. Throws InputError as write_whole_file
+/// does.
 void require_writable(const std::filesystem::path& folder);
 
 }  // namespace plumbline

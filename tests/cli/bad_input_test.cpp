@@ -445,6 +445,17 @@ TEST_F(BadInput, OutputBelowADevice) {
   expect_refused({"run", "suite.toml", "--out", "/dev/null/out"}, HasSubstr("/dev/null/out"));
 }
 
+TEST_F(BadInput, FuzzOutputBelowAFile) {
+  put("file", "mine");
+  expect_refused({"fuzz", "--method", "full", "--cases", "1", "--out", "file/out"}, HasSubstr("file/out"));
+}
+
+// Folders that a refused run had to make on the way are gone again.
+TEST_F(BadInput, NewFoldersDoNotOutliveARefusal) {
+  put("suite.toml", with_file("nowhere.tif").text());
+  expect_refused({"run", "suite.toml", "--out", "a/b/c"}, HasSubstr("nowhere.tif"));
+}
+
 // What was there before a refused run is still there, whole.
 TEST_F(BadInput, RefusalKeepsAnOlderReport) {
   put("suite.toml", SuiteText{}.text());

@@ -197,13 +197,14 @@ TEST_F(Run, InterruptedKeepsWhatWasFinished) {
   suite.trajectory = "id = \"long\"\nkind = \"orbit\"\nframes = 10000\n";
   put("suite.toml", suite.text());
   bool sent = false;
-  const Outcome outcome = run({"run", "suite.toml", "--out", "out", "--jobs", "2"}, 120, [&](pid_t program) {
-    // The folder exists once the flight begins, well after the handler was installed.
-    if (sent || !std::filesystem::exists(folder() / "out")) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    kill(program, SIGINT);
-    sent = true;
-  });
+  const Outcome outcome =
+      run({"run", "suite.toml", "--out", "out", "--jobs", "2", "--dump-meshes"}, 120, [&](pid_t program) {
+        // The first mesh is there once the flight began, well after the handler was installed.
+        if (sent || !std::filesystem::exists(folder() / "out/meshes")) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        kill(program, SIGINT);
+        sent = true;
+      });
   ASSERT_TRUE(sent);
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   const json results = json::parse(read_file(folder() / "out/results.json"));
