@@ -19,6 +19,15 @@ struct Counters {
   std::uint64_t evaluated = 0;  ///< screen errors computed
   std::uint64_t split = 0;
   std::uint64_t merged = 0;
+  std::uint64_t nodes = 0;  ///< all nodes of the hierarchy: what `visited` is a share of; 0: not stated
+  std::uint64_t drawn = 0;  ///< nodes that were drawn (fans); 0: the method draws no nodes
+  std::uint64_t tiles = 0;  ///< tiles in sight; 0: the method has none
+};
+
+/// A block of samples from the terrain's south-west corner: (columns) × (rows) of them.
+struct SampleBlock {
+  int columns = 0, rows = 0;
+  friend bool operator==(const SampleBlock&, const SampleBlock&) = default;
 };
 
 /// One frame's result.
@@ -54,6 +63,11 @@ class LodMethod {
   /// The mesh for this camera and the current threshold. `frame` may hold an earlier result (its memory is
   /// reused) and is overwritten whole. State kept from earlier frames is allowed.
   virtual void update(const Camera& camera, LodFrame& frame) = 0;
+  /// The samples that the method represents, and is held to: all of them, unless its structure leaves some
+  /// out (a quadtree of vertices takes 2ⁿ × 2ⁿ of 2ⁿ+1 a side). Requires: prepared.
+  [[nodiscard]] virtual SampleBlock reference(const Terrain& terrain) const {
+    return {terrain.columns, terrain.rows};
+  }
   /// Forgets all earlier frames: the next `update` is a first frame.
   virtual void reset() = 0;
   /// A flyer over the same terrain, as after `reset`. Sharing what `prepare` made is for the method to
