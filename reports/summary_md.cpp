@@ -11,6 +11,7 @@
 
 #include "reports/digest.h"
 #include "reports/escape.h"
+#include "reports/markdown_table.h"
 #include "reports/quantile.h"
 #include "reports/report.h"
 
@@ -19,52 +20,6 @@ namespace {
 
 constexpr std::size_t kFailedGatesShown = 10;
 constexpr std::size_t kOffendersShown = 8;
-
-/// A Markdown table whose columns also line up on a terminal. Numbers stand to the right, the first
-/// `text_columns` left.
-class Table {
- public:
-  Table(std::vector<std::string> head, std::size_t text_columns) : text_columns_(text_columns) {
-    row(std::move(head));
-  }
-  void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-  [[nodiscard]] bool empty() const { return rows_.size() < 2; }
-
-  [[nodiscard]] std::string text() const {
-    std::vector<std::size_t> widths(rows_.front().size(), 3);
-    for (const auto& cells : rows_)
-      for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], columns_of(cells[c]));
-    std::string out = line(rows_.front(), widths) + rule(widths);
-    for (std::size_t r = 1; r < rows_.size(); ++r) out += line(rows_[r], widths);
-    return out;
-  }
-
- private:
-  /// Characters, not bytes: every byte of UTF-8 but the continuing ones begins one.
-  static std::size_t columns_of(const std::string& cell) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(cell, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-  }
-  [[nodiscard]] std::string line(const std::vector<std::string>& cells,
-                                 const std::vector<std::size_t>& widths) const {
-    std::string out = "|";
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::string pad(widths[c] - columns_of(cells[c]), ' ');
-      out += c < text_columns_ ? " " + cells[c] + pad + " |" : " " + pad + cells[c] + " |";
-    }
-    return out + "\n";
-  }
-  [[nodiscard]] std::string rule(const std::vector<std::size_t>& widths) const {
-    std::string out = "|";
-    for (std::size_t c = 0; c < widths.size(); ++c)
-      out += c < text_columns_ ? ":" + std::string(widths[c] + 1, '-') + "|"
-                               : std::string(widths[c] + 1, '-') + ":|";
-    return out + "\n";
-  }
-
-  std::size_t text_columns_;
-  std::vector<std::vector<std::string>> rows_;
-};
 
 std::string place(Vec3 at) { return fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x, at.y, at.z); }
 
@@ -85,7 +40,7 @@ std::string matrix(const verdict::SuiteVerdict& verdict) {
   std::vector<std::string> head{"method", "verdict", "frames"};
   for (const FindingColumn& column : shown) head.emplace_back(column.name);
   head.insert(head.end(), {"visible cracks", "gates failed"});
-  Table table(std::move(head), 2);
+  MarkdownTable table(std::move(head), 2);
   for (const MethodDigest& method : methods) {
     std::vector<std::string> cells{markdown_cell(method.method), method.sound() ? "sound" : "not sound",
                                    std::to_string(method.frames)};
@@ -131,7 +86,7 @@ std::string failed_gates(const verdict::SuiteVerdict& verdict) {
   }
   std::erase_if(failures, [](const Failure& failure) { return failure.failed == 0; });
   if (failures.empty()) return {};
-  Table table({"failed gate", "method", "worst run", "limit", "value", "runs failed"}, 4);
+  MarkdownTable table({"failed gate", "method", "worst run", "limit", "value", "runs failed"}, 4);
   for (const Failure& failure : std::span(failures).first(std::min(failures.size(), kFailedGatesShown)))
     table.row({markdown_cell(failure.gate), markdown_cell(failure.method), markdown_cell(failure.worst->run),
                markdown_cell(failure.worst->limit), short_number(failure.worst->value),
@@ -143,7 +98,7 @@ std::string failed_gates(const verdict::SuiteVerdict& verdict) {
 }
 
 std::string offenders(const verdict::SuiteVerdict& verdict) {
-  Table table({"finding", "run", "frame", "at x, y, z (m)", "gap (m)", "gap (px)", "area (m²)"}, 2);
+  MarkdownTable table({"finding", "run", "frame", "at x, y, z (m)", "gap (m)", "gap (px)", "area (m²)"}, 2);
   const std::vector<LocatedFinding> worst = worst_findings(verdict);
   for (const LocatedFinding& found : std::span(worst).first(std::min(worst.size(), kOffendersShown))) {
     const oracle::Finding& finding = *found.finding;
@@ -188,9 +143,9 @@ std::string economy(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
       row->update_ms.insert(row->update_ms.end(), clock->second->update_ms.begin(),
                             clock->second->update_ms.end());
   }
-  Table table({"method", "τ (px)", "triangles, mean", "p99 displacement, worst (px)", "max (px)",
-               "update, median (ms)", "p95 (ms)"},
-              1);
+  MarkdownTable table({"method", "τ (px)", "triangles, mean", "p99 displacement, worst (px)", "max (px)",
+                       "update, median (ms)", "p95 (ms)"},
+                      1);
   for (const Row& row : rows) {
     const bool timed = !row.update_ms.empty();
     table.row({markdown_cell(row.method), short_number(row.threshold_px),
