@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "properties/harness/machine.h"
+#include "properties/tables/make_tables.h"
+#include "reports/tables_report.h"
+#include "scenarios/whole_file.h"
+
+namespace plumbline::cli {
+namespace {
+
+struct TablesArguments {
+  std::vector<std::string> names;
+  std::string out;
+  std::string terrain;
+  int jobs = 0;
+  bool quiet = false;
+};
+
+/// The real terrain that is shipped: in the source tree, or beside an installed program.
+std::filesystem::path shipped_terrain() {
+  const std::filesystem::path in_source = std::filesystem::path(PLUMBLINE_ASSETS) / "jacksboro.vrt";
+  std::error_code error;
+  if (std::filesystem::exists(in_source, error)) return in_source;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return program.parent_path().parent_path() / "share/plumbline/assets/jacksboro.vrt";
+}
+
+int tables(const TablesArguments& arguments) {
+  const std::vector<std::string> papers = tables::choose_tables(arguments.names);
+  const std::filesystem::path out = arguments.out;
+  if (!out.empty()) require_writable(out);  // known before the work, not after
+  const tables::TableSettings settings = tables::published_settings(
+      arguments.terrain.empty() ? shipped_terrain() : std::filesystem::path(arguments.terrain));
+
+  tables::MakeOptions options;
+  options.jobs = arguments.jobs;
+  options.cancelled = &interrupted();
+  tables::TablesOutcome outcome;
+  {
+    ProgressLine line("tables", "steps", arguments.quiet);
+    options.progress = [&line](std::size_t done, std::size_t total) { line.show(done, total); };
+    outcome = tables::make_tables(papers, settings, options);
+  }
+  outcome.timings.machine = machine_name();
+  outcome.timings.compiler = compiler_name();
+  outcome.timings.build_type = build_type();
+  if (!out.empty()) reports::write_tables(outcome.tables, outcome.timings, out);
+  if (!arguments.quiet) {
+    fmt::print("{}\n{}", reports::tables_md(outcome.tables), reports::tables_timing_md(outcome.timings));
+  }
+  return outcome.interrupted ? kInterrupted : kPass;
+}
+
+}  // namespace
+
+void add_tables(CLI::App& program, int& status) {
+  auto arguments = std::make_shared<TablesArguments>();
+  CLI::App* command =
+      program.add_subcommand("tables", "The papers' tables side by side with ours, on stand-in terrain");
+  command->add_option(
+      "papers", arguments->names,
+      fmt::format("which: {}; default: all of them", fmt::join(tables::reproduced_tables(), ", ")));
+  command->add_option("--out", arguments->out,
+                      "folder for tables.md, .json, .csv and the timings; default: none are written");
+  command->add_option("--terrain", arguments->terrain,
+                      "the real stand-in terrain, anything that GDAL opens; default: Jacksboro fault");
+  command->add_option("--jobs", arguments->jobs, "threads; 0: one a core")->check(CLI::Range(0, 1024));
+  command->add_flag("--quiet", arguments->quiet, "print nothing but errors");
+  command->callback([arguments, &status] { status = tables(*arguments); });
+}
+
+}  // namespace plumbline::cli

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "properties/tables/clock.h"
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <string>
+
+#include <sys/resource.h>
+
+namespace plumbline::tables {
+namespace {
+
+double thread_time_s() {
+  std::timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// A line of /proc/self/status in 10⁶ bytes; 0 if it is not there.
+double status_mb(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double kib = 0;
+    if (word == key + ":" && status >> kib) return kib * 1024e-6;
+  }
+  return 0;
+}
+
+/// Lets the gauge of peak memory begin anew at what is resident now (proc(5), clear_refs).
+bool reset_peak() {
+  std::ofstream refs("/proc/self/clear_refs");
+  refs << "5" << std::flush;
+  return refs.good();
+}
+
+/// The highest peak seen before a reset.
+double g_earlier_peak_mb = 0;
+
+}  // namespace
+
+double process_peak_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return std::max({g_earlier_peak_mb, status_mb("VmHWM"), static_cast<double>(usage.ru_maxrss) * 1024e-6});
+}
+
+void gauge(Timing& timing, const std::function<void()>& work) {
+  g_earlier_peak_mb = process_peak_mb();
+  const bool gauged = reset_peak();
+  const double before_mb = status_mb("VmRSS");
+  const double start_s = thread_time_s();
+  work();
+  timing.cpu_s = thread_time_s() - start_s;
+  timing.peak_mb = gauged ? std::max(0.0, status_mb("VmHWM") - before_mb) : 0;
+}
+
+}  // namespace plumbline::tables

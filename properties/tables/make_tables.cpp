@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which tables there are, and who does what when: trials over small terrains run side by side, the large ones
+// and everything that is gauged run alone, one after the other.
+#include "properties/tables/make_tables.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "properties/tables/clock.h"
+#include "scenarios/error.h"
+#include "scenarios/nearest.h"
+
+namespace plumbline::tables {
+namespace {
+
+/// A table on its way: a slot for every trial, stand-in by stand-in.
+struct Sheet {
+  Sheet(Table empty, std::size_t stand_ins, std::size_t views_of_each)
+      : table(std::move(empty)), views(views_of_each), trials(stand_ins * views_of_each) {
+    table.stand_ins.resize(stand_ins);
+  }
+  [[nodiscard]] bool whole() const {
+    return std::all_of(trials.begin(), trials.end(), [](const auto& trial) { return trial.has_value(); });
+  }
+
+  Table table;
+  std::size_t views;
+  std::vector<std::optional<Trial>> trials;
+};
+
+using RunTrial = std::function<Trial(const Table&, const Terrain&, std::size_t view)>;
+
+/// All trials of one table over one terrain size.
+struct Small {
+  Sheet* sheet = nullptr;
+  int size = 0;
+  RunTrial run;
+};
+
+class Maker {
+ public:
+  Maker(const TableSettings& settings, const Workshop& workshop) : settings_(settings), workshop_(workshop) {}
+
+  /// Small tables: every trial is a task of its own and loads its own terrain, which is cheap.
+  void run_side_by_side(const std::vector<Small>& tables) {
+    struct Task {
+      const Small* small;
+      std::size_t stand_in, view;
+    };
+    std::vector<Task> tasks;
+    for (const Small& small : tables) {
+      for (std::size_t s = 0; s < settings_.stand_ins.size(); ++s) {
+        for (std::size_t v = 0; v < small.sheet->views; ++v) tasks.push_back({&small, s, v});
+      }
+    }
+    tbb::parallel_for(
+        std::size_t{0}, tasks.size(),
+        [&](std::size_t k) {
+          const auto [small, s, v] = tasks[k];
+          workshop_.check();
+          const Terrain terrain = load_stand_in(settings_.stand_ins[s], small->size);
+          Sheet& sheet = *small->sheet;
+          if (v == 0) sheet.table.stand_ins[s] = describe_stand_in(terrain, settings_.stand_ins[s].origin);
+          sheet.trials[s * sheet.views + v] = small->run(sheet.table, terrain, v);
+        },
+        tbb::simple_partitioner{});
+  }
+
+  /// P2: preprocessing gauged, and table 2, which is too large to have two of in memory.
+  void run_alone(Sheet& on_triangles, Sheet& on_tiles, std::vector<Timing>& timings) {
+    const P2Settings& p2 = settings_.p2;
+    for (std::size_t s = 0; s < settings_.stand_ins.size(); ++s) {
+      const StandInSource& stand_in = settings_.stand_ins[s];
+      {
+        const Terrain terrain = load_stand_in(stand_in, p2.whole_size);
+        gauge_preparation(p2.whole, terrain, "P2.1", kTable1Preprocessing, timings);
+      }
+      workshop_.check();
+      const Terrain terrain = load_stand_in(stand_in, p2.tiled_size);
+      const StandIn facts = describe_stand_in(terrain, stand_in.origin);
+      {
+        const std::unique_ptr<LodMethod> method =
+            gauge_preparation(p2.tiled, terrain, "P2.2", kTable2Preprocessing, timings);
+        for (Sheet* sheet : {&on_triangles, &on_tiles}) {
+          const Table2Fit fit = sheet == &on_triangles ? Table2Fit::triangles : Table2Fit::tiles;
+          sheet->table.stand_ins[s] = facts;
+          for (std::size_t v = 0; v < sheet->views; ++v) {
+            sheet->trials[s * sheet->views + v] =
+                p2_trial2(sheet->table, p2, terrain, *method, p2_retreats()[v], fit, workshop_);
+          }
+        }
+      }
+      workshop_.check();
+      gauge_preparation(p2.dependent, terrain, "P2.2", kDependentPreprocessing, timings);
+    }
+  }
+
+ private:
+  std::unique_ptr<LodMethod> gauge_preparation(const MethodUse& use, const Terrain& terrain,
+                                               const std::string& table, const std::string& paper,
+                                               std::vector<Timing>& timings) {
+    Timing timing;
+    timing.table = table;
+    timing.terrain = terrain.id;
+    timing.what = fmt::format("preprocessing, {}, {} x {} samples", use.id, terrain.columns, terrain.rows);
+    timing.paper = paper;
+    std::unique_ptr<LodMethod> method;
+    gauge(timing, [&] { method = prepared(use, terrain); });
+    timings.push_back(timing);
+    return method;
+  }
+
+  const TableSettings& settings_;
+  const Workshop& workshop_;
+};
+
+/// Interrupted: what is whole is kept.
+TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& settings,
+                   const Workshop& workshop) {
+  const auto asked = [&](const char* paper) {
+    return std::find(papers.begin(), papers.end(), paper) != papers.end();
+  };
+  const std::size_t stand_ins = settings.stand_ins.size();
+  std::vector<Sheet> sheets;
+  if (asked("P0")) sheets.emplace_back(p0_table(settings.picture), stand_ins, p0_views().size());
+  const std::size_t p2 = sheets.size();
+  if (asked("P2")) {
+    sheets.emplace_back(p2_table1(settings.p2, settings.picture), stand_ins, p2_views().size());
+    for (const Table2Fit fit : {Table2Fit::triangles, Table2Fit::tiles}) {
+      sheets.emplace_back(p2_table2(settings.p2, settings.picture, fit), stand_ins, p2_retreats().size());
+    }
+  }
+  std::vector<Small> small;
+  if (asked("P0")) {
+    small.push_back(
+        {sheets.data(), settings.p0.size, [&](const Table& t, const Terrain& terrain, std::size_t v) {
+           return p0_trial(t, settings.p0, terrain, p0_views()[v], workshop);
+         }});
+  }
+  if (asked("P2")) {
+    small.push_back(
+        {&sheets[p2], settings.p2.whole_size, [&](const Table& t, const Terrain& terrain, std::size_t v) {
+           return p2_trial1(t, settings.p2, terrain, p2_views()[v], workshop);
+         }});
+  }
+
+  TablesOutcome outcome;
+  Maker maker(settings, workshop);
+  try {
+    maker.run_side_by_side(small);
+    if (asked("P2")) maker.run_alone(sheets[p2 + 1], sheets[p2 + 2], outcome.timings.entries);
+  } catch (const Interrupted&) {
+    outcome.interrupted = true;
+  }
+  for (Sheet& sheet : sheets) {
+    if (!sheet.whole()) continue;
+    for (std::optional<Trial>& trial : sheet.trials) sheet.table.trials.push_back(std::move(*trial));
+    outcome.tables.push_back(std::move(sheet.table));
+  }
+  return outcome;
+}
+
+std::size_t steps_of(const std::vector<std::string>& papers, std::size_t stand_ins) {
+  std::size_t steps = 0;
+  for (const std::string& paper : papers) {
+    if (paper == "P0") steps += p0_views().size() * kP0Steps;
+    if (paper == "P2") {
+      steps += p2_views().size() * kP2Table1Steps + 2 * p2_retreats().size() * kP2Table2Steps;
+    }
+  }
+  return steps * stand_ins;
+}
+
+}  // namespace
+
+TableSettings published_settings(const std::filesystem::path& real_terrain) {
+  TableSettings settings;
+  StandInSource real;
+  real.source.id = real_terrain.stem().string();
+  real.source.file = real_terrain;
+  real.source.holes = HolePolicy::fill;
+  real.origin = "a real terrain, resampled bilinearly: smooth between its own samples";
+  StandInSource fractal;
+  fractal.source.id = "fbm";
+  fractal.source.generator = "fbm";
+  fractal.origin = "generator fbm, seed 1: fractal down to two samples";
+  settings.stand_ins = {real, fractal};
+  return settings;
+}
+
+const std::vector<std::string>& reproduced_tables() {
+  static const std::vector<std::string> papers{"P0", "P2"};
+  return papers;
+}
+
+std::vector<std::string> choose_tables(const std::vector<std::string>& names) {
+  const std::vector<std::string>& there = reproduced_tables();
+  if (names.empty()) return there;
+  const std::vector<std::string> papers{"P0", "P1", "P2", "P3", "P4"};
+  std::vector<std::string> chosen;
+  for (const std::string& name : names) {
+    if (std::find(papers.begin(), papers.end(), name) == papers.end()) {
+      throw InputError(unknown_name("table", name, papers));
+    }
+    if (std::find(there.begin(), there.end(), name) == there.end()) {
+      throw InputError(fmt::format("tables: {} is not reproduced by this build; ask for {}", name,
+                                   fmt::join(there, " or ")));
+    }
+  }
+  for (const std::string& paper : there) {
+    if (std::find(names.begin(), names.end(), paper) != names.end()) chosen.push_back(paper);
+  }
+  return chosen;
+}
+
+TablesOutcome make_tables(const std::vector<std::string>& papers, const TableSettings& settings,
+                          const MakeOptions& options) {
+  const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(jobs));
+  const auto start = std::chrono::steady_clock::now();
+  const oracle::RayDevice device;
+  const std::size_t total = steps_of(papers, settings.stand_ins.size());
+  std::atomic<std::size_t> done{0};
+  Workshop workshop{device, settings.picture, {}, options.cancelled};
+  workshop.figure_done = [&] {
+    const std::size_t now = ++done;
+    if (options.progress) options.progress(now, total);
+  };
+  TablesOutcome outcome;
+  tbb::task_arena arena(jobs);
+  arena.execute([&] { outcome = make(papers, settings, workshop); });
+  outcome.timings.jobs = jobs;
+  outcome.timings.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.timings.process_peak_mb = process_peak_mb();
+  return outcome;
+}
+
+}  // namespace plumbline::tables
