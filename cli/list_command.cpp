@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "oracle/finding.h"
 #include "properties/laws/law.h"
+#include "properties/tables/make_tables.h"
 #include "scenarios/error.h"
 #include "scenarios/nearest.h"
 #include "scenarios/terrain_source.h"
@@ -61,16 +62,21 @@ void list_oracles() {
   }
 }
 
+void list_tables() {
+  fmt::print("tables\n");
+  for (const tables::ReproducedPaper& paper : tables::reproduced_papers()) {
+    line(paper.id, paper.summary, paper.section);
+  }
+}
+
 void list(const std::string& what) {
   struct Shelf {
     const char* name;
     void (*print)();
   };
-  static constexpr Shelf kShelves[] = {{"methods", list_methods},
-                                       {"terrains", list_terrains},
-                                       {"trajectories", list_trajectories},
-                                       {"laws", list_laws},
-                                       {"oracles", list_oracles}};
+  static constexpr Shelf kShelves[] = {{"methods", list_methods},           {"terrains", list_terrains},
+                                       {"trajectories", list_trajectories}, {"laws", list_laws},
+                                       {"oracles", list_oracles},           {"tables", list_tables}};
   std::vector<std::string> names;
   bool found = false;
   for (const Shelf& shelf : kShelves) {
@@ -88,7 +94,8 @@ void list(const std::string& what) {
 void add_list(CLI::App& program, int& status) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = program.add_subcommand("list", "What there is, one line each");
-  command->add_option("what", *what, "methods, terrains, trajectories, laws or oracles; default: all");
+  command->add_option("what", *what,
+                      "methods, terrains, trajectories, laws, oracles or tables; default: all");
   command->callback([what, &status] {
     list(*what);
     status = kPass;

@@ -66,11 +66,11 @@ int tables(const TablesArguments& arguments) {
 
 void add_tables(CLI::App& program, int& status) {
   auto arguments = std::make_shared<TablesArguments>();
+  std::string known;
+  for (const tables::ReproducedPaper& paper : tables::reproduced_papers()) known += paper.id + ", ";
   CLI::App* command =
       program.add_subcommand("tables", "The papers' tables side by side with ours, on stand-in terrain");
-  command->add_option(
-      "papers", arguments->names,
-      fmt::format("which: {}; default: all of them", fmt::join(tables::reproduced_tables(), ", ")));
+  command->add_option("papers", arguments->names, fmt::format("which: {}default: all of them", known));
   command->add_option("--out", arguments->out,
                       "folder for tables.md, .json, .csv and the timings; default: none are written");
   command->add_option("--terrain", arguments->terrain,

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,12 +74,26 @@ std::string side_by_side(const Table& table, const StandIn& stand_in) {
   return out.text();
 }
 
+bool same(const std::vector<Fit>& a, const std::vector<Fit>& b) {
+  return std::ranges::equal(a, b, [](const Fit& x, const Fit& y) {
+    return x.parameter == y.parameter && x.row == y.row && x.name == y.name && x.value == y.value;
+  });
+}
+
+/// A line a fit; trials of one terrain that share their fits share the lines.
 std::string fits(const Table& table) {
   MarkdownTable out({"terrain", "view", "fitted", "to", "value", "wanted", "reached"}, 4);
-  for (const Trial& trial : table.trials) {
+  for (std::size_t t = 0; t < table.trials.size(); ++t) {
+    const Trial& trial = table.trials[t];
+    const auto shares = [&](const Trial& other) {
+      return other.terrain == trial.terrain && same(other.fits, trial.fits);
+    };
+    const auto before = table.trials.begin() + static_cast<std::ptrdiff_t>(t);
+    if (std::any_of(table.trials.begin(), before, shares)) continue;
+    const bool alone = std::count_if(table.trials.begin(), table.trials.end(), shares) == 1;
     for (const Fit& fit : trial.fits) {
-      out.row({markdown_cell(trial.terrain), markdown_cell(trial.view), markdown_cell(fit.parameter),
-               markdown_cell(fmt::format("{}, {}", fit.row, fit.name)),
+      out.row({markdown_cell(trial.terrain), alone ? markdown_cell(trial.view) : "all",
+               markdown_cell(fit.parameter), markdown_cell(fmt::format("{}, {}", fit.row, fit.name)),
                fmt::format("{:.6g} {}", fit.value, fit.unit), tables::figure_text(fit.wanted, 0),
                tables::figure_text(fit.reached, 0)});
     }

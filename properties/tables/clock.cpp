@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 namespace plumbline::tables {
@@ -49,6 +50,7 @@ double process_peak_mb() {
 
 void gauge(Timing& timing, const std::function<void()>& work) {
   g_earlier_peak_mb = process_peak_mb();
+  ::malloc_trim(0);  // what was freed before must not serve the work unseen
   const bool gauged = reset_peak();
   const double before_mb = status_mb("VmRSS");
   const double start_s = thread_time_s();

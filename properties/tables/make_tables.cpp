@@ -78,7 +78,7 @@ class Maker {
   }
 
   /// P2: preprocessing gauged, and table 2, which is too large to have two of in memory.
-  void run_alone(Sheet& on_triangles, Sheet& on_tiles, std::vector<Timing>& timings) {
+  void run_alone(Sheet& own, Sheet& fitted, std::vector<Timing>& timings) {
     const P2Settings& p2 = settings_.p2;
     for (std::size_t s = 0; s < settings_.stand_ins.size(); ++s) {
       const StandInSource& stand_in = settings_.stand_ins[s];
@@ -88,25 +88,30 @@ class Maker {
       }
       workshop_.check();
       const Terrain terrain = load_stand_in(stand_in, p2.tiled_size);
-      const StandIn facts = describe_stand_in(terrain, stand_in.origin);
+      gauge_preparation(p2.dependent, terrain, "P2.2", kDependentPreprocessing, timings);
+      workshop_.check();
+      std::vector<Fit> fits;
       {
         const std::unique_ptr<LodMethod> method =
             gauge_preparation(p2.tiled, terrain, "P2.2", kTable2Preprocessing, timings);
-        for (Sheet* sheet : {&on_triangles, &on_tiles}) {
-          const Table2Fit fit = sheet == &on_triangles ? Table2Fit::triangles : Table2Fit::tiles;
-          sheet->table.stand_ins[s] = facts;
-          for (std::size_t v = 0; v < sheet->views; ++v) {
-            sheet->trials[s * sheet->views + v] =
-                p2_trial2(sheet->table, p2, terrain, *method, p2_retreats()[v], fit, workshop_);
-          }
-        }
+        fits.push_back(p2_fit_distance(p2, terrain, *method, workshop_));
+        retreat(own, s, terrain, *method, fits);
       }
-      workshop_.check();
-      gauge_preparation(p2.dependent, terrain, "P2.2", kDependentPreprocessing, timings);
+      fits.push_back(p2_fit_relief(p2, terrain, fits[0].value, workshop_));
+      const Terrain scaled = with_relief(terrain, fits[1].value);
+      retreat(fitted, s, scaled, *prepared(p2.tiled, scaled), fits);
     }
   }
 
  private:
+  void retreat(Sheet& sheet, std::size_t stand_in, const Terrain& terrain, const LodMethod& method,
+               const std::vector<Fit>& fits) {
+    sheet.table.stand_ins[stand_in] = describe_stand_in(terrain, settings_.stand_ins[stand_in].origin);
+    for (std::size_t v = 0; v < sheet.views; ++v) {
+      sheet.trials[stand_in * sheet.views + v] =
+          p2_trial2(sheet.table, terrain, method, p2_retreats()[v], fits[0].value, fits, workshop_);
+    }
+  }
   std::unique_ptr<LodMethod> gauge_preparation(const MethodUse& use, const Terrain& terrain,
                                                const std::string& table, const std::string& paper,
                                                std::vector<Timing>& timings) {
@@ -131,14 +136,16 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
   const auto asked = [&](const char* paper) {
     return std::find(papers.begin(), papers.end(), paper) != papers.end();
   };
+  // Cheap refusals first: a file that cannot be read should not wait for other terrains' trials.
+  for (const StandInSource& stand_in : settings.stand_ins) load_stand_in(stand_in, 2);
   const std::size_t stand_ins = settings.stand_ins.size();
   std::vector<Sheet> sheets;
   if (asked("P0")) sheets.emplace_back(p0_table(settings.picture), stand_ins, p0_views().size());
   const std::size_t p2 = sheets.size();
   if (asked("P2")) {
     sheets.emplace_back(p2_table1(settings.p2, settings.picture), stand_ins, p2_views().size());
-    for (const Table2Fit fit : {Table2Fit::triangles, Table2Fit::tiles}) {
-      sheets.emplace_back(p2_table2(settings.p2, settings.picture, fit), stand_ins, p2_retreats().size());
+    for (const Relief relief : {Relief::own, Relief::fitted}) {
+      sheets.emplace_back(p2_table2(settings.p2, settings.picture, relief), stand_ins, p2_retreats().size());
     }
   }
   std::vector<Small> small;
@@ -176,7 +183,7 @@ std::size_t steps_of(const std::vector<std::string>& papers, std::size_t stand_i
   for (const std::string& paper : papers) {
     if (paper == "P0") steps += p0_views().size() * kP0Steps;
     if (paper == "P2") {
-      steps += p2_views().size() * kP2Table1Steps + 2 * p2_retreats().size() * kP2Table2Steps;
+      steps += p2_views().size() * kP2Table1Steps + kP2Table2Steps;
     }
   }
   return steps * stand_ins;
@@ -187,41 +194,43 @@ std::size_t steps_of(const std::vector<std::string>& papers, std::size_t stand_i
 TableSettings published_settings(const std::filesystem::path& real_terrain) {
   TableSettings settings;
   StandInSource real;
-  real.source.id = real_terrain.stem().string();
+  real.source.id = one_line(real_terrain.stem().string());
+  if (real.source.id == "fbm") real.source.id = "terrain";  // the fractal's name
   real.source.file = real_terrain;
   real.source.holes = HolePolicy::fill;
   real.origin = "a real terrain, resampled bilinearly: smooth between its own samples";
   StandInSource fractal;
   fractal.source.id = "fbm";
   fractal.source.generator = "fbm";
+  fractal.source.spacing_m = 10;  // at the generator's own relief: mountains 10 km wide and 1150 m high
   fractal.origin = "generator fbm, seed 1: fractal down to two samples";
   settings.stand_ins = {real, fractal};
   return settings;
 }
 
-const std::vector<std::string>& reproduced_tables() {
-  static const std::vector<std::string> papers{"P0", "P2"};
+const std::vector<ReproducedPaper>& reproduced_papers() {
+  static const std::vector<ReproducedPaper> papers{
+      {"P0", "triangles of ATL (haar_quadtree) beside QUADTin's, figures 6 to 8", "TABLES P0, M1"},
+      {"P2", "isolated division at three thresholds, and along a retreat, tables 1 and 2", "TABLES P2, M3"},
+  };
   return papers;
 }
 
 std::vector<std::string> choose_tables(const std::vector<std::string>& names) {
-  const std::vector<std::string>& there = reproduced_tables();
-  if (names.empty()) return there;
-  const std::vector<std::string> papers{"P0", "P1", "P2", "P3", "P4"};
-  std::vector<std::string> chosen;
+  std::vector<std::string> there;
+  for (const ReproducedPaper& paper : reproduced_papers()) there.push_back(paper.id);
+  const std::vector<std::string> known{"P0", "P1", "P2", "P3", "P4"};
+  const auto holds = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
   for (const std::string& name : names) {
-    if (std::find(papers.begin(), papers.end(), name) == papers.end()) {
-      throw InputError(unknown_name("table", name, papers));
-    }
-    if (std::find(there.begin(), there.end(), name) == there.end()) {
-      throw InputError(fmt::format("tables: {} is not reproduced by this build; ask for {}", name,
-                                   fmt::join(there, " or ")));
-    }
+    if (!holds(known, name)) throw InputError(unknown_name("table", name, known));
+    if (holds(there, name)) continue;
+    throw InputError(fmt::format("tables: {} is not reproduced by this build; ask for {}", name,
+                                 fmt::join(there, " or ")));
   }
-  for (const std::string& paper : there) {
-    if (std::find(names.begin(), names.end(), paper) != names.end()) chosen.push_back(paper);
-  }
-  return chosen;
+  if (!names.empty()) std::erase_if(there, [&](const std::string& paper) { return !holds(names, paper); });
+  return there;
 }
 
 TablesOutcome make_tables(const std::vector<std::string>& papers, const TableSettings& settings,

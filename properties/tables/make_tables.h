@@ -26,8 +26,13 @@ struct TableSettings {
 /// One real terrain, read from `real_terrain` (anything that GDAL opens), and one fractal.
 TableSettings published_settings(const std::filesystem::path& real_terrain);
 
-/// Which papers' tables this build reproduces: "P0", "P2".
-const std::vector<std::string>& reproduced_tables();
+/// A paper whose tables this build reproduces.
+struct ReproducedPaper {
+  std::string id;  ///< "P0"
+  std::string summary;
+  std::string section;  ///< in TABLES and METHODS
+};
+const std::vector<ReproducedPaper>& reproduced_papers();
 
 /// The papers that are asked for, in order and once each; none named: all that there are. Throws InputError
 /// for a name that is no paper's, and for one whose tables this build does not reproduce.

@@ -95,8 +95,8 @@ class Opponent {
 
 const std::vector<P0View>& p0_views() {
   static const std::vector<P0View> views{
-      {{"overview, 45° down", {0, -1, 1}}, 1.25},
-      {{"oblique, 18° down", {0, -3, 1}}, 1},
+      {{"overview, 45° down", {0, -1, 1}}, 1.75},
+      {{"oblique, 18° down", {0, -3, 1}}, 1.25},
       {{"low, 5.7° down", {0, -10, 1}}, 0.6},
   };
   return views;
@@ -210,11 +210,11 @@ Trial p0_trial(const Table& table, const P0Settings& settings, const Terrain& te
     const double same_p99 = opponent.triangles_at_error(error.p99, fitted.x, &oracle::PixelFigure::p99);
     put(table, trial, row, kQuadtin, same_p99);
     put(table, trial, row, kQuadtinShare, 100 * same_p99 / full);
-    put(table, trial, row, kRatio, same_p99 / count);
+    put(table, trial, row, kRatio, per(same_p99, count));
     workshop.step();
     const double same_max = opponent.triangles_at_error(error.max, fitted.x, &oracle::PixelFigure::max);
-    put(table, trial, row, kRatioMax, same_max / count);
-    put(table, trial, row, kRatioTau, opponent.triangles_at(fitted.x) / count);
+    put(table, trial, row, kRatioMax, per(same_max, count));
+    put(table, trial, row, kRatioTau, per(opponent.triangles_at(fitted.x), count));
     workshop.step();
   }
   return trial;

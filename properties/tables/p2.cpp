@@ -5,6 +5,8 @@
 // thresholds over one tile, and along six snapshots of a retreating camera over 16 × 16 tiles.
 #include "properties/tables/p2.h"
 
+#include <array>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -53,6 +55,8 @@ constexpr const char* kGrowth2 = "frame 6 : 1";
 constexpr double kTable2Threshold_px = 3;
 /// Snapshots stand this share of the first one's distance apart.
 constexpr double kRetreatShare = 0.1;
+/// A relief is near enough if its count is within this share: a search of a dozen preparations, not fifty.
+constexpr double kReliefTolerance = 1e-3;
 /// A search comes in from here: so far away that nothing but roots is drawn.
 constexpr double kFarWidths = 64;
 
@@ -65,14 +69,10 @@ double full_triangles(const Terrain& terrain) { return 2.0 * (terrain.columns - 
 
 double triangles_of(const LodFrame& frame) { return static_cast<double>(frame.mesh.triangles.size()); }
 
-std::optional<double> per(double count, double of) {
-  return of > 0 ? std::optional(count / of) : std::nullopt;
-}
-
 /// The camera of snapshot k. Level: the camera and what it looks at move back together.
 Camera retreated(const Terrain& terrain, const Retreat& retreat, double distance_m, int k,
                  const Picture& picture) {
-  const View view{"", {0, -1, 1}};
+  const View view{"", {0, -3, 1}};
   if (retreat.along_sight) {
     return look_at_middle(terrain, view, distance_m * (1 + kRetreatShare * k), picture);
   }
@@ -81,6 +81,28 @@ Camera retreated(const Terrain& terrain, const Retreat& retreat, double distance
   return make_camera(first.position + back, first.position + back + first.forward * distance_m,
                      picture.fov_y_deg, picture.width_px, picture.height_px);
 }
+
+/// A method at table 2's threshold, flying snapshot by snapshot.
+class Snapshots {
+ public:
+  Snapshots(const Terrain& terrain, const LodMethod& method, const Workshop& workshop)
+      : terrain_(terrain), method_(method.clone()), workshop_(workshop) {
+    method_->set_threshold_px(kTable2Threshold_px);
+  }
+  void draw(const Retreat& retreat, double distance_m, int k) {
+    workshop_.check();
+    method_->reset();
+    method_->update(retreated(terrain_, retreat, distance_m, k, workshop_.picture), frame_);
+  }
+  [[nodiscard]] double triangles() const { return triangles_of(frame_); }
+  [[nodiscard]] double tiles() const { return static_cast<double>(frame_.counters.tiles); }
+
+ private:
+  const Terrain& terrain_;
+  std::unique_ptr<LodMethod> method_;
+  const Workshop& workshop_;
+  LodFrame frame_;
+};
 
 }  // namespace
 
@@ -184,34 +206,38 @@ const std::vector<Retreat>& p2_retreats() {
   return retreats;
 }
 
-Table p2_table2(const P2Settings& settings, const Picture& picture, Table2Fit fit) {
-  const bool on_triangles = fit == Table2Fit::triangles;
+Table p2_table2(const P2Settings& settings, const Picture& picture, Relief relief) {
+  const bool own = relief == Relief::own;
   Table table;
-  table.id = on_triangles ? "P2.2a" : "P2.2b";
-  table.title = fmt::format(
-      "Isolated division along six snapshots, 4097 × 4097 samples in 256 tiles of 257, ε = 3; "
-      "fitted to frame 1's {}",
-      on_triangles ? "triangles" : "visible tiles");
+  table.id = own ? "P2.2a" : "P2.2b";
+  table.title =
+      fmt::format("Isolated division along six snapshots, 4097 × 4097 samples in 256 tiles of 257, ε = 3; {}",
+                  own ? "the terrain's own relief" : "relief fitted");
   table.source = fmt::format("{}, experiment 2, table 2", kSource);
-  table.protocol = {
-      on_triangles
-          ? fmt::format(
-                "Fitted: the first camera's distance from the middle of the terrain, so that it draws {} "
-                "triangles (the farthest such distance). All else is a prediction.",
-                figure_text(settings.tiled_triangles, 0))
-          : fmt::format(
-                "Fitted: the first camera's distance from the middle of the terrain, so that {} tiles "
-                "are visible (or the nearest number there is). All else is a prediction.",
-                figure_text(settings.tiled_tiles, 0)),
-      fmt::format(
-          "Decided: the first camera looks 45° down at the middle, {} × {} pixels, {}° high; each snapshot "
-          "stands a tenth of the first one's distance further back, either along the line of sight or on a "
-          "level. The paper says no more than \"far from the ground, gradually moving back\".",
-          picture.width_px, picture.height_px, picture.fov_y_deg),
+  table.protocol = {fmt::format(
+      "Fitted: the first camera's distance from the middle of the terrain, so that {} tiles are visible{}.",
+      figure_text(settings.tiled_tiles, 0),
+      own ? "; all else is a prediction" : " at the terrain's own relief, as in P2.2a")};
+  if (!own) {
+    table.protocol.push_back(
+        fmt::format("Fitted too: a factor on all heights, so that frame 1 draws {} triangles (to 0.1 %). So "
+                    "frame 1 is no "
+                    "evidence here at all; the growth from it is. Two parameters, where the other tables fit "
+                    "one: with one, "
+                    "no distance draws that many over these terrains.",
+                    figure_text(settings.tiled_triangles, 0)));
+  }
+  table.protocol.push_back(
+      fmt::format("Decided: the first camera looks 18° down at the middle, {} × {} pixels, {}° high; each "
+                  "snapshot stands a "
+                  "tenth of the first one's distance further back, either along the line of sight or on a "
+                  "level. The paper "
+                  "says no more than \"far from the ground, gradually moving back\".",
+                  picture.width_px, picture.height_px, picture.fov_y_deg));
+  table.protocol.emplace_back(
       "Tiles outside the view frustum are skipped; nothing is hidden by anything else. The paper's counts "
       "may "
-      "include occlusion culling, which it cites.",
-  };
+      "include occlusion culling, which it cites.");
   table.notes = {
       "Preprocessing: the extracted digits \"12345610.698\" hold six frame numbers and 10.698 s, or 610.698 "
       "s if "
@@ -223,8 +249,8 @@ Table p2_table2(const P2Settings& settings, const Picture& picture, Table2Fit fi
   for (const Row2& r : kTable2) {
     const bool first = &r == &kTable2[0];
     const double triangles = printed_number(r.triangles);
-    add(table, r.row, kTiles, "", 0, first && !on_triangles ? Kind::fitted : Kind::predicted, r.tiles);
-    add(table, r.row, kTriangles, "", 0, first && on_triangles ? Kind::fitted : Kind::predicted, r.triangles);
+    add(table, r.row, kTiles, "", 0, first ? Kind::fitted : Kind::predicted, r.tiles);
+    add(table, r.row, kTriangles, "", 0, first && !own ? Kind::fitted : Kind::predicted, r.triangles);
     add(table, r.row, kShare, "%", 3, Kind::derived, r.percent, 100 * triangles / full);
     add(table, r.row, kPerTile, "", 0, Kind::derived, "", triangles / printed_number(r.tiles));
   }
@@ -236,39 +262,53 @@ Table p2_table2(const P2Settings& settings, const Picture& picture, Table2Fit fi
   return table;
 }
 
-Trial p2_trial2(const Table& table, const P2Settings& settings, const Terrain& terrain,
-                const LodMethod& prepared_method, const Retreat& retreat, Table2Fit fit,
-                const Workshop& workshop) {
-  const bool on_triangles = fit == Table2Fit::triangles;
+Fit p2_fit_distance(const P2Settings& settings, const Terrain& terrain, const LodMethod& method,
+                    const Workshop& workshop) {
+  Snapshots snapshots(terrain, method, workshop);
+  const Found found = search({settings.tiled_tiles, kFarWidths * terrain.width_m(), false, 0}, [&](double m) {
+    snapshots.draw(p2_retreats().front(), m, 0);
+    return snapshots.tiles();
+  });
+  workshop.step();
+  return {"first camera's distance", "m", found.x, kTable2[0].row, kTiles, settings.tiled_tiles, found.value};
+}
+
+Terrain with_relief(const Terrain& terrain, double factor) {
+  Terrain scaled = terrain;
+  for (double& z : scaled.heights_m) z *= factor;
+  return scaled;
+}
+
+Fit p2_fit_relief(const P2Settings& settings, const Terrain& terrain, double distance_m,
+                  const Workshop& workshop) {
+  const Search asked{settings.tiled_triangles, 1, false, kReliefTolerance};
+  const Found found = search(asked, [&](double factor) {
+    workshop.check();
+    const Terrain scaled = with_relief(terrain, factor);
+    Snapshots snapshots(scaled, *prepared(settings.tiled, scaled), workshop);
+    snapshots.draw(p2_retreats().front(), distance_m, 0);
+    return snapshots.triangles();
+  });
+  workshop.step();
+  return {"factor on heights",      "",         found.x, kTable2[0].row, kTriangles,
+          settings.tiled_triangles, found.value};
+}
+
+Trial p2_trial2(const Table& table, const Terrain& terrain, const LodMethod& method, const Retreat& retreat,
+                double distance_m, const std::vector<Fit>& fits, const Workshop& workshop) {
   Trial trial;
   trial.terrain = terrain.id;
   trial.view = retreat.name;
-  const std::unique_ptr<LodMethod> method = prepared_method.clone();
-  method->set_threshold_px(kTable2Threshold_px);
-  LodFrame frame;
-  const auto draw = [&](double distance_m, int k) {
-    workshop.check();
-    method->reset();
-    method->update(retreated(terrain, retreat, distance_m, k, workshop.picture), frame);
-  };
-  const auto tiles_of = [&] { return static_cast<double>(frame.counters.tiles); };
-  const double wanted = on_triangles ? settings.tiled_triangles : settings.tiled_tiles;
-  const Found fitted =
-      search({wanted, kFarWidths * terrain.width_m(), on_triangles, 0}, [&](double distance_m) {
-        draw(distance_m, 0);
-        return on_triangles ? triangles_of(frame) : tiles_of();
-      });
-  trial.fits.push_back({"first camera's distance", "m", fitted.x, kTable2[0].row,
-                        on_triangles ? kTriangles : kTiles, wanted, fitted.value});
-  workshop.step();
+  trial.fits = fits;
+  Snapshots snapshots(terrain, method, workshop);
   const double full = full_triangles(terrain);
   put(table, trial, "full", kFull, full);
   std::array<double, 6> triangles{}, tiles{};
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     const char* row = kTable2[k].row;
-    draw(fitted.x, static_cast<int>(k));
-    triangles[k] = triangles_of(frame);
-    tiles[k] = tiles_of();
+    snapshots.draw(retreat, distance_m, static_cast<int>(k));
+    triangles[k] = snapshots.triangles();
+    tiles[k] = snapshots.tiles();
     put(table, trial, row, kTiles, tiles[k]);
     put(table, trial, row, kTriangles, triangles[k]);
     put(table, trial, row, kShare, 100 * triangles[k] / full);

@@ -30,19 +30,28 @@ inline constexpr std::size_t kP2Table1Steps = 3;
 Trial p2_trial1(const Table& table, const P2Settings& settings, const Terrain& terrain, const View& view,
                 const Workshop& workshop);
 
-/// Table 2, fitted to frame 1's triangles ("P2.2a") or to its visible tiles ("P2.2b"). A trial a way to move
-/// back.
-enum class Table2Fit { triangles, tiles };
+/// Table 2 twice: "P2.2a" at the terrain's own relief, the first camera placed by frame 1's visible tiles;
+/// "P2.2b" from the same places, relief fitted to frame 1's triangles. A trial a way to move back.
 struct Retreat {
   std::string name;
   bool along_sight = true;  ///< else level, at a constant height
 };
 const std::vector<Retreat>& p2_retreats();
-Table p2_table2(const P2Settings& settings, const Picture& picture, Table2Fit fit);
-inline constexpr std::size_t kP2Table2Steps = 2;
-Trial p2_trial2(const Table& table, const P2Settings& settings, const Terrain& terrain,
-                const LodMethod& prepared_method, const Retreat& retreat, Table2Fit fit,
-                const Workshop& workshop);
+enum class Relief { own, fitted };
+Table p2_table2(const P2Settings& settings, const Picture& picture, Relief relief);
+
+/// Where the first camera sees the wanted number of tiles.
+Fit p2_fit_distance(const P2Settings& settings, const Terrain& terrain, const LodMethod& method,
+                    const Workshop& workshop);
+/// The factor on heights with which the first camera, that far away, draws the wanted number of triangles.
+Fit p2_fit_relief(const P2Settings& settings, const Terrain& terrain, double distance_m,
+                  const Workshop& workshop);
+Terrain with_relief(const Terrain& terrain, double factor);
+/// Steps of the progress, for both tables of a stand-in: two fits and a trial for each retreat and table.
+inline constexpr std::size_t kP2Table2Steps = 6;
+/// The six snapshots. `fits`: what led here; kept in the trial.
+Trial p2_trial2(const Table& table, const Terrain& terrain, const LodMethod& method, const Retreat& retreat,
+                double distance_m, const std::vector<Fit>& fits, const Workshop& workshop);
 
 /// What the paper says of preprocessing, for Timing::paper.
 inline constexpr const char* kTable1Preprocessing = "91.251 s";

@@ -59,6 +59,10 @@ oracle::PixelFigure Ground::displacement_px(const Camera& camera, const oracle::
   return oracle::pop(camera, *surface_, hits, oracle::RaySurface(device_, mesh));
 }
 
+std::optional<double> per(double count, double of) {
+  return of > 0 ? std::optional(count / of) : std::nullopt;
+}
+
 void put(const Table& table, Trial& trial, std::string_view row, std::string_view name,
          std::optional<double> ours) {
   trial.ours.resize(table.figures.size());

@@ -30,11 +30,12 @@ struct MethodUse {
   Options options;
 };
 
-/// The papers give neither viewport nor field of view.
+/// The papers give neither viewport nor field of view. Decided: a screen of their years, and the field of
+/// view of OpenGL's own examples.
 struct Picture {
   int width_px = 1024;
   int height_px = 768;
-  double fov_y_deg = 60;
+  double fov_y_deg = 45;
 };
 
 /// A line of sight onto the terrain's middle: from where, as (east, north, up) steps away from it.
@@ -77,6 +78,9 @@ class Ground {
   std::unique_ptr<Mesh> mesh_;
   std::unique_ptr<oracle::RaySurface> surface_;
 };
+
+/// count ÷ of; nothing where `of` is 0.
+std::optional<double> per(double count, double of);
 
 /// Enters one of a trial's own figures. Throws std::logic_error if the table has no such figure.
 void put(const Table& table, Trial& trial, std::string_view row, std::string_view name,
