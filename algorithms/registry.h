@@ -15,7 +15,8 @@ namespace plumbline {
 
 /// What a method promises; laws and oracles hold it to these, and list the others as "not promised".
 enum class Promise {
-  conforming,        ///< covers its domain once, edge to edge, at equal heights
+  conforming,        ///< no point covered twice, edge to edge, at equal heights, no hole inside
+  covers_domain,     ///< reaches the outline of the domain that each frame promises, and not beyond
   monotone_in_tau,   ///< a larger threshold never gives more triangles on the same promised domain
   idempotent,        ///< a second update with the same camera changes nothing
   path_independent,  ///< the mesh depends on the camera, not on the flight before it

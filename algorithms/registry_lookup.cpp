@@ -56,6 +56,8 @@ std::string_view promise_name(Promise promise) {
   switch (promise) {
     case Promise::conforming:
       return "conforming";
+    case Promise::covers_domain:
+      return "covers_domain";
     case Promise::monotone_in_tau:
       return "monotone_in_tau";
     case Promise::idempotent:

@@ -58,16 +58,16 @@ MethodDescription describe_block_bintree() {
           {
               {"",
                "as published: q = 1 + ε_d/2; blocks outside the view cone are left out",
-               {conforming, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
               {"tri_cull",
                "also leaves out triangles whose ball lies outside the view cone",
-               {conforming, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
               {"by_distance",
                "block levels follow distance alone; cracks between blocks are hunted",
-               {monotone_in_tau, idempotent, path_independent}},
+               {covers_domain, monotone_in_tau, idempotent, path_independent}},
               {"repaired",
                "q and ε_d from the terrain's steepest slope, so that M4.C3 holds for every camera",
-               {conforming, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
           },
       .options =
           {

@@ -213,7 +213,8 @@ MethodDescription describe_restricted_quadtree() {
       .section = "reference",
       .variants = {{"",
                     "vertices by saturated error over distance, closed under their dependencies",
-                    {conforming, monotone_in_tau, idempotent, path_independent, exact_at_zero, symmetric}}},
+                    {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero,
+                     symmetric}}},
       .options =
           {
               {"cluster_size", "samples along a cluster's side, 2^n+1; 0: the largest that fits the terrain",

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Law: for every terrain, flight and threshold, the frame's mesh covers the domain that the frame promises
-// exactly once, edge to edge and at equal heights. Source: METHODS M4.C1 for block_bintree; Pajarola's
-// restricted quadtree promises it by construction. Decided exactly by oracle O1.
+// Law: for every terrain, flight and threshold, the frame's mesh covers no point twice, edge to edge and at
+// equal heights, with no hole inside. Where it ends is another law's matter (covers_domain). Source: METHODS
+// M1.C1, M3.C1, M4.C1; Pajarola's restricted quadtree promises it by construction. Decided exactly by oracle
+// O1.
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,9 +19,9 @@ namespace plumbline::properties {
 namespace {
 
 /// The finding that says most: the largest gap; without one, the first in the report's order.
-const oracle::Finding& worst(const oracle::ConformityReport& report) {
-  const oracle::Finding* chosen = &report.findings.front();
-  for (const oracle::Finding& finding : report.findings) {
+const oracle::Finding& worst(const std::vector<oracle::Finding>& findings) {
+  const oracle::Finding* chosen = &findings.front();
+  for (const oracle::Finding& finding : findings) {
     if (std::fabs(finding.gap_m) > std::fabs(chosen->gap_m)) chosen = &finding;
   }
   return *chosen;
@@ -31,9 +34,11 @@ LawOutcome check(const LawInput& input) {
   if (frame.mesh.triangles.empty() && frame.domain.loops.empty()) {
     return vacuous("the frame promises no domain and draws nothing");
   }
-  const oracle::ConformityReport report = oracle::check_conformity(frame.mesh, frame.domain);
-  if (!report.clean()) {
-    oracle::Finding finding = worst(report);
+  std::vector<oracle::Finding> findings = oracle::check_conformity(frame.mesh, frame.domain).findings;
+  std::erase_if(findings,
+                [](const oracle::Finding& finding) { return finding.code == oracle::FindingCode::outline; });
+  if (!findings.empty()) {
+    oracle::Finding finding = worst(findings);
     std::string what = fmt::format("{} at ({}, {}, {})", oracle::finding_name(finding.code), finding.at.x,
                                    finding.at.y, finding.at.z);
     if (finding.gap_m != 0) {
@@ -47,7 +52,7 @@ LawOutcome check(const LawInput& input) {
                             finding.gap_px / input.threshold_px, depth_m);
       }
     }
-    what += fmt::format("; {} findings in {} triangles", report.findings.size(), frame.mesh.triangles.size());
+    what += fmt::format("; {} findings in {} triangles", findings.size(), frame.mesh.triangles.size());
     return violated(std::move(what), std::move(finding));
   }
   if (!has_several_levels(frame.mesh) && !is_threshold_blind(input)) {
@@ -62,9 +67,9 @@ Law law_conforming() {
   return {
       .id = "conforming",
       .statement =
-          "for every terrain, flight and threshold the mesh covers the promised domain once, edge to edge, "
-          "at equal heights, without a correction pass",
-      .source = "METHODS M4.C1; ORACLES O1",
+          "for every terrain, flight and threshold the mesh covers no point twice, edge to edge, at equal "
+          "heights, with no hole inside",
+      .source = "METHODS M1.C1, M3.C1, M4.C1; ORACLES O1",
       .applies = [](const MethodChoice&) { return true; },
       .promised = [](const MethodChoice& choice) { return choice.promises(Promise::conforming); },
       .check = check};

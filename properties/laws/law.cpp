@@ -27,8 +27,15 @@ std::string_view outcome_name(LawOutcome::Kind kind) {
 
 const std::vector<Law>& all_laws() {
   static const std::vector<Law> laws{
-      law_conforming(), law_error_is_monotone(), law_split_test_is_monotone(), law_triangles_fall_with_tau(),
-      law_idempotent(), law_path_independent(),  law_exact_at_zero(),          law_scaling_keeps_topology(),
+      law_conforming(),
+      law_covers_domain(),
+      law_error_is_monotone(),
+      law_split_test_is_monotone(),
+      law_triangles_fall_with_tau(),
+      law_idempotent(),
+      law_path_independent(),
+      law_exact_at_zero(),
+      law_scaling_keeps_topology(),
       law_symmetric(),
   };
   return laws;

@@ -45,6 +45,7 @@ bool is_threshold_blind(const LawInput& input);
 
 // Each law's maker, defined in the file named after the law.
 Law law_conforming();
+Law law_covers_domain();
 Law law_error_is_monotone();
 Law law_split_test_is_monotone();
 Law law_triangles_fall_with_tau();
