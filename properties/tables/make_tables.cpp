@@ -41,9 +41,10 @@ struct Sheet {
 
 using RunTrial = std::function<Trial(const Table&, const Terrain&, std::size_t view)>;
 
-/// All trials of one table over one terrain size.
+/// All trials of one table over terrains of one size.
 struct Small {
   Sheet* sheet = nullptr;
+  const std::vector<StandInSource>* stand_ins = nullptr;
   int size = 0;
   RunTrial run;
 };
@@ -60,7 +61,7 @@ class Maker {
     };
     std::vector<Task> tasks;
     for (const Small& small : tables) {
-      for (std::size_t s = 0; s < settings_.stand_ins.size(); ++s) {
+      for (std::size_t s = 0; s < small.stand_ins->size(); ++s) {
         for (std::size_t v = 0; v < small.sheet->views; ++v) tasks.push_back({&small, s, v});
       }
     }
@@ -69,9 +70,10 @@ class Maker {
         [&](std::size_t k) {
           const auto [small, s, v] = tasks[k];
           workshop_.check();
-          const Terrain terrain = load_stand_in(settings_.stand_ins[s], small->size);
+          const StandInSource& stand_in = (*small->stand_ins)[s];
+          const Terrain terrain = load_stand_in(stand_in, small->size);
           Sheet& sheet = *small->sheet;
-          if (v == 0) sheet.table.stand_ins[s] = describe_stand_in(terrain, settings_.stand_ins[s].origin);
+          if (v == 0) sheet.table.stand_ins[s] = describe_stand_in(terrain, stand_in.origin);
           sheet.trials[s * sheet.views + v] = small->run(sheet.table, terrain, v);
         },
         tbb::simple_partitioner{});
@@ -139,8 +141,11 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
   // Cheap refusals first: a file that cannot be read should not wait for other terrains' trials.
   for (const StandInSource& stand_in : settings.stand_ins) load_stand_in(stand_in, 2);
   const std::size_t stand_ins = settings.stand_ins.size();
+  std::vector<StandInSource> p0_stand_ins = settings.stand_ins;
+  p0_stand_ins.insert(p0_stand_ins.end(), settings.p0.more_stand_ins.begin(),
+                      settings.p0.more_stand_ins.end());
   std::vector<Sheet> sheets;
-  if (asked("P0")) sheets.emplace_back(p0_table(settings.picture), stand_ins, p0_views().size());
+  if (asked("P0")) sheets.emplace_back(p0_table(settings.picture), p0_stand_ins.size(), p0_views().size());
   const std::size_t p2 = sheets.size();
   if (asked("P2")) {
     sheets.emplace_back(p2_table1(settings.p2, settings.picture), stand_ins, p2_views().size());
@@ -150,16 +155,16 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
   }
   std::vector<Small> small;
   if (asked("P0")) {
-    small.push_back(
-        {sheets.data(), settings.p0.size, [&](const Table& t, const Terrain& terrain, std::size_t v) {
-           return p0_trial(t, settings.p0, terrain, p0_views()[v], workshop);
-         }});
+    small.push_back({sheets.data(), &p0_stand_ins, settings.p0.size,
+                     [&](const Table& t, const Terrain& terrain, std::size_t v) {
+                       return p0_trial(t, settings.p0, terrain, p0_views()[v], workshop);
+                     }});
   }
   if (asked("P2")) {
-    small.push_back(
-        {&sheets[p2], settings.p2.whole_size, [&](const Table& t, const Terrain& terrain, std::size_t v) {
-           return p2_trial1(t, settings.p2, terrain, p2_views()[v], workshop);
-         }});
+    small.push_back({&sheets[p2], &settings.stand_ins, settings.p2.whole_size,
+                     [&](const Table& t, const Terrain& terrain, std::size_t v) {
+                       return p2_trial1(t, settings.p2, terrain, p2_views()[v], workshop);
+                     }});
   }
 
   TablesOutcome outcome;
@@ -178,15 +183,15 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
   return outcome;
 }
 
-std::size_t steps_of(const std::vector<std::string>& papers, std::size_t stand_ins) {
+std::size_t steps_of(const std::vector<std::string>& papers, const TableSettings& settings) {
+  const std::size_t stand_ins = settings.stand_ins.size();
   std::size_t steps = 0;
   for (const std::string& paper : papers) {
-    if (paper == "P0") steps += p0_views().size() * kP0Steps;
-    if (paper == "P2") {
-      steps += p2_views().size() * kP2Table1Steps + kP2Table2Steps;
-    }
+    if (paper == "P0")
+      steps += (stand_ins + settings.p0.more_stand_ins.size()) * p0_views().size() * kP0Steps;
+    if (paper == "P2") steps += stand_ins * (p2_views().size() * kP2Table1Steps + kP2Table2Steps);
   }
-  return steps * stand_ins;
+  return steps;
 }
 
 }  // namespace
@@ -195,7 +200,7 @@ TableSettings published_settings(const std::filesystem::path& real_terrain) {
   TableSettings settings;
   StandInSource real;
   real.source.id = one_line(real_terrain.stem().string());
-  if (real.source.id == "fbm") real.source.id = "terrain";  // the fractal's name
+  if (real.source.id == "fbm" || real.source.id == "terraced") real.source.id = "terrain";  // taken below
   real.source.file = real_terrain;
   real.source.holes = HolePolicy::fill;
   real.origin = "a real terrain, resampled bilinearly: smooth between its own samples";
@@ -205,6 +210,11 @@ TableSettings published_settings(const std::filesystem::path& real_terrain) {
   fractal.source.spacing_m = 10;  // at the generator's own relief: mountains 10 km wide and 1150 m high
   fractal.origin = "generator fbm, seed 1: fractal down to two samples";
   settings.stand_ins = {real, fractal};
+  StandInSource terraced = fractal;
+  terraced.source.id = "terraced";
+  terraced.height_classes = 12;  // as many as a physical map's legend has, about
+  terraced.origin = "the same fractal in 12 height classes: the paper's Africa was restored from a map";
+  settings.p0.more_stand_ins = {terraced};
   return settings;
 }
 
@@ -240,7 +250,7 @@ TablesOutcome make_tables(const std::vector<std::string>& papers, const TableSet
                                   static_cast<std::size_t>(jobs));
   const auto start = std::chrono::steady_clock::now();
   const oracle::RayDevice device;
-  const std::size_t total = steps_of(papers, settings.stand_ins.size());
+  const std::size_t total = steps_of(papers, settings);
   std::atomic<std::size_t> done{0};
   Workshop workshop{device, settings.picture, {}, options.cancelled};
   workshop.figure_done = [&] {

@@ -15,6 +15,8 @@ struct P0Settings {
   MethodUse atl{"haar_quadtree", {{"patch_size", 128.0}, {"cull", false}}};
   MethodUse quadtin{"restricted_quadtree", {}};
   std::array<double, 3> atl_triangles{38530, 20569, 6983};  ///< fitted to; figures 6b, 7a, 8a
+  /// Besides the terrains of all tables: the paper's was made from a map.
+  std::vector<StandInSource> more_stand_ins;
 };
 
 /// A view and how far away it is, in widths of the terrain.

@@ -3,6 +3,8 @@
 
 #include "properties/tables/stage.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -30,7 +32,17 @@ void Workshop::step() const {
 Terrain load_stand_in(const StandInSource& stand_in, int size) {
   TerrainSource source = stand_in.source;
   source.size = size;
-  return load_terrain(source);
+  Terrain terrain = load_terrain(source);
+  if (stand_in.height_classes == 0) return terrain;
+  const double low_m = terrain.lowest_m();
+  const double class_m = (terrain.highest_m() - low_m) / stand_in.height_classes;
+  if (class_m == 0) return terrain;
+  for (double& z : terrain.heights_m) {
+    // The summit belongs to the highest class, not to one of its own.
+    const double lower = std::min(std::floor((z - low_m) / class_m), stand_in.height_classes - 1.0);
+    z = low_m + lower * class_m;
+  }
+  return terrain;
 }
 
 std::unique_ptr<LodMethod> prepared(const MethodUse& use, const Terrain& terrain) {

@@ -22,6 +22,8 @@ namespace plumbline::tables {
 struct StandInSource {
   TerrainSource source;  ///< its `size` is set by the table
   std::string origin;    ///< what it is, in a few words
+  /// Heights are cut down to this many equal classes, as the colours of a map give them; 0: as they are.
+  int height_classes = 0;
 };
 
 /// A method with its options.

@@ -27,6 +27,7 @@ constexpr double kCountStep = 16;
 TableSettings small_settings() {
   TableSettings settings = published_settings("unused");
   settings.stand_ins.erase(settings.stand_ins.begin());  // the fractal needs no file
+  settings.p0.more_stand_ins.clear();
   settings.picture = {256, 192, 45};
   settings.p0.size = 129;
   settings.p0.atl.options["patch_size"] = 32.0;
@@ -216,34 +217,29 @@ TEST(MakeTables, PreprocessingIsTimedBesideThePapers) {
   for (const Timing& entry : timings.entries) EXPECT_GT(entry.cpu_s, 0) << entry.what;
 }
 
-TEST(MakeTables, JobsDoNotMoveAByte) {
+TEST(MakeTables, JobsDoNotMoveAByteAndProgressEndsAtItsTotal) {
+  std::size_t most = 0, total = 0, calls = 0;
+  MakeOptions options = with_jobs(1);  // so the reports come in order
+  options.progress = [&](std::size_t done, std::size_t of) {
+    EXPECT_EQ(done, most + 1);
+    most = done;
+    total = of;
+    ++calls;
+  };
+  const TablesOutcome one = make_tables({"P0", "P2"}, small_settings(), options);
+  EXPECT_GT(calls, 0U);
+  EXPECT_EQ(most, total);
   const std::span<const Table> two = small_outcome().tables;
-  const TablesOutcome one = make_tables({"P0", "P2"}, small_settings(), with_jobs(1));
   EXPECT_EQ(reports::tables_json(one.tables), reports::tables_json(two));
   EXPECT_EQ(reports::tables_md(one.tables), reports::tables_md(two));
   EXPECT_EQ(reports::tables_csv(one.tables), reports::tables_csv(two));
 }
 
 TEST(MakeTables, OnlyWhatIsAskedForIsMade) {
-  const TablesOutcome outcome = make_tables({"P0"}, small_settings(), {});
-  ASSERT_EQ(outcome.tables.size(), 1U);
-  EXPECT_EQ(outcome.tables[0].id, "P0");
-  EXPECT_TRUE(outcome.timings.entries.empty());
+  const TablesOutcome outcome = make_tables({"P2"}, small_settings(), {});
+  ASSERT_EQ(outcome.tables.size(), 3U);
   EXPECT_EQ(reports::tables_json(outcome.tables),
-            reports::tables_json(std::span(small_outcome().tables).first(1)));
-}
-
-TEST(MakeTables, ProgressEndsAtItsTotal) {
-  std::atomic<std::size_t> most{0}, total{0};
-  MakeOptions options;
-  options.jobs = 1;
-  options.progress = [&](std::size_t done, std::size_t of) {
-    most = std::max(most.load(), done);
-    total = of;
-  };
-  make_tables({"P0", "P2"}, small_settings(), options);
-  EXPECT_GT(total.load(), 0U);
-  EXPECT_EQ(most.load(), total.load());
+            reports::tables_json(std::span(small_outcome().tables).subspan(1)));
 }
 
 TEST(MakeTables, InterruptedKeepsWholeTablesOnly) {
@@ -271,6 +267,37 @@ TEST(MakeTables, ATerrainWithoutReliefIsNoFault) {
   EXPECT_LT(table.trials[0].fits[0].reached,
             table.trials[0].fits[0].wanted);  // it says that it did not meet it
   EXPECT_EQ(reports::tables_json(outcome.tables).find("nan"), std::string::npos);
+}
+
+TEST(StandIn, HeightClassesAreSteps) {
+  StandInSource stand_in = small_settings().stand_ins[0];
+  const Terrain plain = load_stand_in(stand_in, 65);
+  stand_in.height_classes = 12;
+  const Terrain stepped = load_stand_in(stand_in, 65);
+  std::vector<double> heights = stepped.heights_m;
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  EXPECT_EQ(heights.size(), 12U);
+  const double class_m = (plain.highest_m() - plain.lowest_m()) / 12;
+  for (std::size_t k = 0; k < plain.heights_m.size(); ++k) {
+    EXPECT_LE(stepped.heights_m[k], plain.heights_m[k]);
+    EXPECT_LE(plain.heights_m[k], stepped.heights_m[k] + class_m * (1 + 1e-12));
+  }
+}
+
+TEST(StandIn, OfOneTableAloneChangesNoOther) {
+  TableSettings settings = small_settings();
+  StandInSource terraced = settings.stand_ins[0];
+  terraced.source.id = "terraced";
+  terraced.height_classes = 12;
+  settings.p0.more_stand_ins = {terraced};
+  const TablesOutcome outcome = make_tables({"P0", "P2"}, settings, {});
+  ASSERT_EQ(outcome.tables.size(), 4U);
+  EXPECT_EQ(outcome.tables[0].stand_ins.size(), 2U);
+  EXPECT_EQ(outcome.tables[0].trials.size(), 2 * p0_views().size());
+  EXPECT_EQ(outcome.tables[0].trials.back().terrain, "terraced");
+  EXPECT_EQ(reports::tables_json(std::span(outcome.tables).subspan(1)),
+            reports::tables_json(std::span(small_outcome().tables).subspan(1)));
 }
 
 TEST(ChooseTables, NoneNamedIsAllThereAre) {
