@@ -51,11 +51,7 @@ bool outside_frustum(const Camera& camera, Vec3 low, Vec3 high) {
   return std::find(outside.begin(), outside.end(), 8) != outside.end();
 }
 
-/// Which samples of a tile's south and east border are drawn: what its lower and right neighbours adapt to.
-struct Border {
-  std::vector<std::uint8_t> south, east;
-  bool visible = false;
-};
+constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
 class IsolatedQuadtree final : public LodMethod {
  public:
@@ -71,18 +67,17 @@ class IsolatedQuadtree final : public LodMethod {
 
   void update(const Camera& camera, LodFrame& frame) override {
     frame.clear();
-    const Terrain& terrain = grid_->terrain();
+    frame.counters.nodes = grid_->node_count();
     if (vertex_.empty()) {
-      vertex_.resize(terrain.heights_m.size());
-      stamp_.assign(terrain.heights_m.size(), 0);
-      const auto across = static_cast<std::size_t>(grid_->tile_side() + 1);
-      mark_.assign(across * across, 0);
+      across_ = static_cast<std::size_t>(grid_->tile_side() + 1);
+      vertex_.assign(across_ * across_, kNoVertex);
+      mark_.assign(across_ * across_, 0);
+      south_.resize(across_ * grid_->tile_count());
+      east_.resize(south_.size());
     }
-    ++now_;
     camera_ = &camera;
     frame_ = &frame;
-    borders_.assign(static_cast<std::size_t>(grid_->tiles_x()) * static_cast<std::size_t>(grid_->tiles_y()),
-                    {});
+    visible_.assign(grid_->tile_count(), 0);
     for (int b = grid_->tiles_y() - 1; b >= 0; --b) {
       for (int a = 0; a < grid_->tiles_x(); ++a) draw_tile(a, b);
     }
@@ -100,11 +95,6 @@ class IsolatedQuadtree final : public LodMethod {
   }
 
  private:
-  [[nodiscard]] Border& border(int a, int b) {
-    return borders_[static_cast<std::size_t>(b) * static_cast<std::size_t>(grid_->tiles_x()) +
-                    static_cast<std::size_t>(a)];
-  }
-
   void draw_tile(int a, int b) {
     const Terrain& terrain = grid_->terrain();
     tile_ = grid_->tile(a, b);
@@ -124,15 +114,17 @@ class IsolatedQuadtree final : public LodMethod {
     for (const Node& node : drawn_) draw(node);
     frame_->counters.drawn += drawn_.size();
 
-    Border& mine = border(a, b);
-    mine.visible = true;
-    mine.south.resize(static_cast<std::size_t>(tile_.side + 1));
-    mine.east.resize(mine.south.size());
+    // What the lower and the right neighbour will adapt to.
+    const std::size_t mine = grid_->tile_index(a, b);
+    visible_[mine] = 1;
     for (int k = 0; k <= tile_.side; ++k) {
-      mine.south[static_cast<std::size_t>(k)] = mark(tile_.i + k, tile_.j);
-      mine.east[static_cast<std::size_t>(k)] = mark(tile_.i + tile_.side, tile_.j + k);
+      south_[mine * across_ + static_cast<std::size_t>(k)] = vertex_[slot(tile_.i + k, tile_.j)];
+      east_[mine * across_ + static_cast<std::size_t>(k)] = vertex_[slot(tile_.i + tile_.side, tile_.j + k)];
     }
-    for (const std::size_t slot : marked_) mark_[slot] = 0;
+    for (const std::size_t used : marked_) {
+      mark_[used] = 0;
+      vertex_[used] = kNoVertex;
+    }
     marked_.clear();
   }
 
@@ -152,119 +144,151 @@ class IsolatedQuadtree final : public LodMethod {
       divide({node.i + h, node.j, h});
       return;
     }
-    drawn_.push_back(node);
     const int h = node.half();
+    drawn_.push_back(node);
     for (int dj = 0; dj <= 2; ++dj) {
       for (int di = 0; di <= 2; ++di) {
         const int i = node.i + di * h;
         const int j = node.j + dj * h;
-        if (grid_->has_data(i, j) && (whole || grid_->has_data(node.i + h, node.j + h))) set_mark(i, j);
+        if (whole || grid_->has_data(i, j)) set_mark(i, j);
       }
     }
   }
 
-  /// e_s = κ·e_n·cos β / d > τ (§2.2).
+  /// e_s = κ·e_n·cos β / d > τ (§2.2), multiplied out: no root, no division. With cos β = way·f̂ / d the test
+  /// is κ·e_n·(way·f̂) > τ·d².
   [[nodiscard]] bool splits(Node node) const {
     ++frame_->counters.evaluated;
-    const Vec3 way = grid_->terrain().point(node.i + node.half(), node.j + node.half()) - camera_->position;
-    const double distance_m = length(way);
-    if (distance_m == 0) return true;
-    const double error_px = camera_->kappa_px * grid_->error_m(node) / distance_m;
-    if (!with_cosine_) return error_px > threshold_px();
-    const double cosine = dot(way, camera_->forward) / distance_m;
-    return cosine > 0 && error_px * cosine > threshold_px();
+    const TileGrid::Record& record = grid_->record(node);
+    const double spacing_m = grid_->terrain().spacing_m;
+    const Vec3 center{(node.i + node.half()) * spacing_m, (node.j + node.half()) * spacing_m,
+                      record.center_m};
+    const Vec3 way = center - camera_->position;
+    const double squared_m2 = dot(way, way);
+    if (squared_m2 == 0) return true;
+    const double scaled_error = camera_->kappa_px * record.error_m;
+    if (!with_cosine_) {
+      return scaled_error * scaled_error > threshold_px() * threshold_px() * squared_m2;
+    }
+    const double depth_m = dot(way, camera_->forward);
+    return depth_m > 0 && scaled_error * depth_m > threshold_px() * squared_m2;
   }
 
   /// Towards the upper and the left tile (§2.4): what only they draw becomes our split point; what only we
   /// draw takes the height interpolated on their edge. Heights are adapted for this frame alone.
   void adapt_to_neighbours(int a, int b) {
-    const auto across = static_cast<std::size_t>(tile_.side + 1);
-    north_m_.assign(across, kAsStored);
-    west_m_.assign(across, kAsStored);
-    if (b + 1 < grid_->tiles_y() && border(a, b + 1).visible) {
-      adapt(border(a, b + 1).south, north_m_, [this](int k) {
-        return std::array{tile_.i + k, tile_.j + tile_.side};
-      });
+    north_m_.assign(across_, kAsStored);
+    west_m_.assign(across_, kAsStored);
+    const auto at_north = [this](int k) { return std::array{tile_.i + k, tile_.j + tile_.side}; };
+    const auto at_west = [this](int k) { return std::array{tile_.i, tile_.j + k}; };
+    // Diagonal neighbours share a corner, which everybody draws at its stored height.
+    if (const std::uint32_t* south = drawn_by(south_, a - 1, b + 1))
+      share(tile_.i, tile_.j + tile_.side, south[tile_.side]);
+    if (const std::uint32_t* south = drawn_by(south_, a + 1, b + 1)) {
+      share(tile_.i + tile_.side, tile_.j + tile_.side, south[0]);
     }
-    if (a > 0 && border(a - 1, b).visible) {
-      adapt(border(a - 1, b).east, west_m_, [this](int k) { return std::array{tile_.i, tile_.j + k}; });
-    }
+    if (const std::uint32_t* south = drawn_by(south_, a, b + 1)) adapt(south, north_m_, at_north);
+    if (const std::uint32_t* east = drawn_by(east_, a - 1, b)) adapt(east, west_m_, at_west);
   }
 
-  template <class Place>
-  void adapt(const std::vector<std::uint8_t>& theirs, std::vector<double>& adapted_m, Place place) {
+  /// The border of a neighbour that is drawn in this frame already; null if there is none.
+  [[nodiscard]] const std::uint32_t* drawn_by(const std::vector<std::uint32_t>& borders, int a, int b) const {
+    if (a < 0 || a >= grid_->tiles_x() || b >= grid_->tiles_y()) return nullptr;
+    const std::size_t tile = grid_->tile_index(a, b);
+    return visible_[tile] != 0 ? borders.data() + tile * across_ : nullptr;
+  }
+
+  /// Takes over a neighbour's vertex.
+  void share(int i, int j, std::uint32_t vertex) {
+    if (vertex == kNoVertex) return;
+    set_mark(i, j);
+    vertex_[slot(i, j)] = vertex;
+  }
+
+  template <class At>
+  void adapt(const std::uint32_t* theirs, std::vector<double>& adapted_m, At at) {
+    const Terrain& terrain = grid_->terrain();
     int before = -1;
     for (int k = 0; k <= tile_.side; ++k) {
-      if (theirs[static_cast<std::size_t>(k)] == 0) continue;
-      const auto [i1, j1] = place(k);
+      if (theirs[k] == kNoVertex) continue;
+      const auto [i1, j1] = at(k);
       for (int between = before + 1; before >= 0 && between < k; ++between) {
-        const auto [i, j] = place(between);
-        if (mark(i, j) == 0) continue;
-        const auto [i0, j0] = place(before);
-        const double z0 = grid_->terrain().z(i0, j0);
-        const double z1 = grid_->terrain().z(i1, j1);
+        const auto [i, j] = at(between);
+        if (mark_[slot(i, j)] == 0) continue;
+        const auto [i0, j0] = at(before);
+        const double z0 = terrain.z(i0, j0);
+        const double z1 = terrain.z(i1, j1);
         adapted_m[static_cast<std::size_t>(between)] = z0 + (z1 - z0) * (between - before) / (k - before);
       }
-      set_mark(i1, j1);
+      share(i1, j1, theirs[k]);
       before = k;
     }
   }
 
-  /// The fan around the node's centre: its eight rim samples and every split point between them.
+  /// The fan around the node's centre: its eight rim samples and every split point between them, once around
+  /// from the south-west corner.
   void draw(Node node) {
     const int h = node.half();
-    if (!grid_->has_data(node.i + h, node.j + h)) return;
-    const std::uint32_t center = vertex(node.i + h, node.j + h);
-    const std::array<std::array<int, 2>, 9> rim{
+    center_ = vertex(node.i + h, node.j + h);
+    static constexpr std::array<std::array<int, 2>, 9> kRim{
         {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {0, 0}}};
-    for (std::size_t k = 0; k < 8; ++k) {
-      const int i0 = node.i + rim[k][0] * h;
-      const int j0 = node.j + rim[k][1] * h;
-      const int i1 = node.i + rim[k + 1][0] * h;
-      const int j1 = node.j + rim[k + 1][1] * h;
-      if (grid_->has_data(i0, j0) && grid_->has_data(i1, j1)) draw_edge(center, i0, j0, i1, j1);
+    if (grid_->whole(node)) {
+      const std::uint32_t first = vertex(node.i, node.j);
+      last_ = first;
+      for (std::size_t k = 0; k < 8; ++k) {
+        draw_edge(node.i + kRim[k][0] * h, node.j + kRim[k][1] * h, kRim[k + 1][0] - kRim[k][0],
+                  kRim[k + 1][1] - kRim[k][1], h);
+      }
+      return;
+    }
+    for (std::size_t k = 0; k < 8; ++k) {  // a smallest node over the border: only what has data
+      const int i0 = node.i + kRim[k][0];
+      const int j0 = node.j + kRim[k][1];
+      const int i1 = node.i + kRim[k + 1][0];
+      const int j1 = node.j + kRim[k + 1][1];
+      if (!grid_->has_data(i0, j0) || !grid_->has_data(i1, j1)) continue;
+      last_ = vertex(i0, j0);
+      draw_edge(i0, j0, i1 - i0, j1 - j0, 1);
     }
   }
 
-  /// Split points are dyadic: where an edge's midpoint is not drawn, nothing finer on it is.
-  void draw_edge(std::uint32_t center, int i0, int j0, int i1, int j1) {
-    const int i = (i0 + i1) / 2;
-    const int j = (j0 + j1) / 2;
-    if (std::max(std::abs(i1 - i0), std::abs(j1 - j0)) > 1 && mark(i, j) != 0) {
-      draw_edge(center, i0, j0, i, j);
-      draw_edge(center, i, j, i1, j1);
+  /// From (i, j), where `last_` stands, `steps` samples on in direction (di, dj). Split points are dyadic:
+  /// where an edge's midpoint is not drawn, nothing finer on it is.
+  void draw_edge(int i, int j, int di, int dj, int steps) {
+    const int half = steps / 2;
+    if (half > 0 && mark_[slot(i + half * di, j + half * dj)] != 0) {
+      draw_edge(i, j, di, dj, half);
+      draw_edge(i + half * di, j + half * dj, di, dj, half);
       return;
     }
-    const std::uint32_t from = vertex(i0, j0);
-    const std::uint32_t to = vertex(i1, j1);
-    frame_->mesh.triangles.push_back({center, from, to});
+    const std::uint32_t next = vertex(i + steps * di, j + steps * dj);
+    frame_->mesh.triangles.push_back({center_, last_, next});
+    last_ = next;
   }
 
   std::uint32_t vertex(int i, int j) {
-    const std::size_t sample = grid_->terrain().index(i, j);
-    if (stamp_[sample] != now_) {
-      stamp_[sample] = now_;
-      vertex_[sample] = static_cast<std::uint32_t>(frame_->mesh.positions.size());
+    std::uint32_t& number = vertex_[slot(i, j)];
+    if (number == kNoVertex) {
+      number = static_cast<std::uint32_t>(frame_->mesh.positions.size());
       Vec3 p = grid_->terrain().point(i, j);
       double adapted_m = kAsStored;
       if (j == tile_.j + tile_.side) adapted_m = north_m_[static_cast<std::size_t>(i - tile_.i)];
       if (i == tile_.i && adapted_m == kAsStored) adapted_m = west_m_[static_cast<std::size_t>(j - tile_.j)];
       if (adapted_m != kAsStored) p.z = adapted_m;
       frame_->mesh.positions.push_back(p);
-      frame_->vertex_keys.push_back(sample);
+      frame_->vertex_keys.push_back(grid_->terrain().index(i, j));
     }
-    return vertex_[sample];
+    return number;
   }
 
-  [[nodiscard]] std::size_t mark_slot(int i, int j) const {
-    return static_cast<std::size_t>(j - tile_.j) * static_cast<std::size_t>(tile_.side + 1) +
-           static_cast<std::size_t>(i - tile_.i);
+  /// Where a sample of the tile in hand stands in the tile's arrays.
+  [[nodiscard]] std::size_t slot(int i, int j) const {
+    return static_cast<std::size_t>(j - tile_.j) * across_ + static_cast<std::size_t>(i - tile_.i);
   }
-  [[nodiscard]] std::uint8_t mark(int i, int j) const { return mark_[mark_slot(i, j)]; }
   void set_mark(int i, int j) {
-    std::uint8_t& cell = mark_[mark_slot(i, j)];
-    if (cell == 0) marked_.push_back(mark_slot(i, j));
-    cell = 1;
+    const std::size_t here = slot(i, j);
+    if (mark_[here] == 0) marked_.push_back(here);
+    mark_[here] = 1;
   }
 
   static constexpr double kAsStored = std::numeric_limits<double>::infinity();
@@ -272,14 +296,16 @@ class IsolatedQuadtree final : public LodMethod {
   int tile_size_;
   bool with_cosine_;
   std::shared_ptr<const TileGrid> grid_;
-  std::vector<std::uint32_t> vertex_, stamp_;  ///< by sample: its vertex in the frame `stamp_` names
-  std::uint32_t now_ = 0;
-  std::vector<Border> borders_;
+  std::size_t across_ = 0;                   ///< samples along a tile's border
+  std::vector<std::uint32_t> south_, east_;  ///< by tile: its border's vertices, or kNoVertex
+  std::vector<std::uint8_t> visible_;        ///< by tile
   // Of the tile in hand:
   Node tile_;
   std::vector<Node> drawn_;
-  std::vector<std::uint8_t> mark_;  ///< drawn samples
+  std::vector<std::uint8_t> mark_;     ///< samples that are drawn
+  std::vector<std::uint32_t> vertex_;  ///< their vertices, once they have one
   std::vector<std::size_t> marked_;
+  std::uint32_t center_ = 0, last_ = 0;   ///< vertices of the fan in hand
   std::vector<double> north_m_, west_m_;  ///< adapted heights along the border, or kAsStored
   const Camera* camera_ = nullptr;
   LodFrame* frame_ = nullptr;

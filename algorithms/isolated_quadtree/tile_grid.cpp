@@ -7,50 +7,64 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/parallel_for.h>
+
 namespace plumbline::isolated_quadtree {
 
 TileGrid::TileGrid(const Terrain& terrain, int tile_side)
     : terrain_(terrain),
       tile_side_(tile_side),
       tiles_x_((terrain.columns - 2) / tile_side + 1),
-      tiles_y_((terrain.rows - 2) / tile_side + 1) {
+      tiles_y_((terrain.rows - 2) / tile_side + 1),
+      lowest_(tile_count()),
+      highest_(tile_count()) {
   for (int side = 2; side <= tile_side_; side *= 2) {
-    const int across = tiles_x_ * (tile_side_ / side);
-    const int along = tiles_y_ * (tile_side_ / side);
-    errors_.emplace_back(static_cast<std::size_t>(across) * static_cast<std::size_t>(along), 0.0);
-    if (side == 2) continue;  // the smallest nodes draw every sample they have: no error
-    for (int b = 0; b < along; ++b) {
-      for (int a = 0; a < across; ++a) {
-        const Node node{a * side, b * side, side};
-        const int h = node.half();
-        const double below =
-            std::max({error_m({node.i, node.j, h}), error_m({node.i + h, node.j, h}),
-                      error_m({node.i, node.j + h, h}), error_m({node.i + h, node.j + h, h})});
-        errors_.back()[slot(node)] = std::max(own_error_m(node), below);
-      }
-    }
+    across_.push_back(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tile_side_ / side));
+    records_.emplace_back(across_.back() * static_cast<std::size_t>(tiles_y_) *
+                          static_cast<std::size_t>(tile_side_ / side));
   }
-  for (int b = 0; b < tiles_y_; ++b) {
-    for (int a = 0; a < tiles_x_; ++a) {
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      const Node square = tile(a, b);
-      for (int j = square.j; j <= std::min(square.j + square.side, terrain.rows - 1); ++j) {
-        for (int i = square.i; i <= std::min(square.i + square.side, terrain.columns - 1); ++i) {
-          low = std::min(low, terrain.z(i, j));
-          high = std::max(high, terrain.z(i, j));
-        }
-      }
-      lowest_.push_back(low);
-      highest_.push_back(high);
-    }
-  }
+  // Every tile writes its own nodes and reads samples only, so no order can show.
+  tbb::parallel_for(std::size_t{0}, tile_count(), [this](std::size_t t) {
+    const auto across = static_cast<std::size_t>(tiles_x_);
+    fill_tile(static_cast<int>(t % across), static_cast<int>(t / across));
+  });
 }
 
-std::size_t TileGrid::level(int side) {
-  std::size_t level = 0;
-  while ((2 << level) < side) ++level;
-  return level;
+std::uint64_t TileGrid::node_count() const {
+  std::uint64_t count = 0;
+  for (const std::vector<Record>& level : records_) count += level.size();
+  return count;
+}
+
+void TileGrid::fill_tile(int a, int b) {
+  const Node square = tile(a, b);
+  const int columns_end = std::min(square.i + square.side, terrain_.columns - 1);
+  const int rows_end = std::min(square.j + square.side, terrain_.rows - 1);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (int j = square.j; j <= rows_end; ++j) {
+    for (int i = square.i; i <= columns_end; ++i) {
+      low = std::min(low, terrain_.z(i, j));
+      high = std::max(high, terrain_.z(i, j));
+    }
+  }
+  lowest_[tile_index(a, b)] = low;
+  highest_[tile_index(a, b)] = high;
+
+  for (int side = 2; side <= tile_side_; side *= 2) {
+    const int h = side / 2;
+    for (int j = square.j; j < square.j + square.side; j += side) {
+      for (int i = square.i; i < square.i + square.side; i += side) {
+        const Node node{i, j, side};
+        Record& record = records_[level(side)][slot(node)];
+        if (has_data(i + h, j + h)) record.center_m = terrain_.z(i + h, j + h);
+        if (side == 2) continue;  // the smallest nodes draw every sample they have: no error
+        const double below = std::max(std::max(error_m({i, j, h}), error_m({i + h, j, h})),
+                                      std::max(error_m({i, j + h, h}), error_m({i + h, j + h, h})));
+        record.error_m = std::max(own_error_m(node), below);
+      }
+    }
+  }
 }
 
 /// The largest distance of the 16 other samples of the node's 5 × 5 from the fan over its 9 samples. Each of

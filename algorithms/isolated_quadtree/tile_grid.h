@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scenarios/terrain.h"
@@ -24,40 +26,57 @@ struct Node {
 /// may reach beyond the terrain: samples there are no-data.
 class TileGrid {
  public:
-  /// Requires: tile_side is a power of two, at least 2.
+  /// One linear pass, tiles in parallel; the same bits on any number of threads. Requires: tile_side is a
+  /// power of two, at least 2. `terrain` outlives the grid.
   TileGrid(const Terrain& terrain, int tile_side);
 
   [[nodiscard]] int tile_side() const { return tile_side_; }
   [[nodiscard]] int tiles_x() const { return tiles_x_; }
   [[nodiscard]] int tiles_y() const { return tiles_y_; }
+  [[nodiscard]] std::size_t tile_count() const {
+    return static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_);
+  }
+  /// Nodes of all tiles' quadtrees, those without data among them.
+  [[nodiscard]] std::uint64_t node_count() const;
   [[nodiscard]] const Terrain& terrain() const { return terrain_; }
   [[nodiscard]] Node tile(int a, int b) const { return {a * tile_side_, b * tile_side_, tile_side_}; }
+  /// Row-major from the south-west.
+  [[nodiscard]] std::size_t tile_index(int a, int b) const {
+    return static_cast<std::size_t>(b) * static_cast<std::size_t>(tiles_x_) + static_cast<std::size_t>(a);
+  }
   [[nodiscard]] bool has_data(int i, int j) const { return i < terrain_.columns && j < terrain_.rows; }
   /// Whether all samples of the node's square are data.
   [[nodiscard]] bool whole(Node node) const {
     return node.i + node.side < terrain_.columns && node.j + node.side < terrain_.rows;
   }
-  /// e_n, metres: never below a child's.
-  [[nodiscard]] double error_m(Node node) const { return errors_[level(node.side)][slot(node)]; }
+  /// What the split test reads of a node, side by side in memory.
+  struct Record {
+    double error_m = 0;   ///< e_n: never below a child's
+    double center_m = 0;  ///< height of the centre sample; 0 where that is no-data
+  };
+  [[nodiscard]] const Record& record(Node node) const { return records_[level(node.side)][slot(node)]; }
+  [[nodiscard]] double error_m(Node node) const { return record(node).error_m; }
   /// Least and greatest height of a tile's data, metres.
-  [[nodiscard]] double lowest_m(int a, int b) const { return lowest_[tile_slot(a, b)]; }
-  [[nodiscard]] double highest_m(int a, int b) const { return highest_[tile_slot(a, b)]; }
+  [[nodiscard]] double lowest_m(int a, int b) const { return lowest_[tile_index(a, b)]; }
+  [[nodiscard]] double highest_m(int a, int b) const { return highest_[tile_index(a, b)]; }
 
  private:
-  [[nodiscard]] static std::size_t level(int side);
+  /// Level 0 is the smallest nodes, of side 2.
+  [[nodiscard]] static std::size_t level(int side) {
+    return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(side))) - 1;
+  }
   [[nodiscard]] std::size_t slot(Node node) const {
-    const auto across = static_cast<std::size_t>(tiles_x_ * (tile_side_ / node.side));
-    return static_cast<std::size_t>(node.j / node.side) * across +
-           static_cast<std::size_t>(node.i / node.side);
+    const std::size_t shift = level(node.side) + 1;
+    return (static_cast<std::size_t>(node.j) >> shift) * across_[shift - 1] +
+           (static_cast<std::size_t>(node.i) >> shift);
   }
-  [[nodiscard]] std::size_t tile_slot(int a, int b) const {
-    return static_cast<std::size_t>(b) * static_cast<std::size_t>(tiles_x_) + static_cast<std::size_t>(a);
-  }
+  void fill_tile(int a, int b);
   [[nodiscard]] double own_error_m(Node node) const;
 
   const Terrain& terrain_;
   int tile_side_, tiles_x_, tiles_y_;
-  std::vector<std::vector<double>> errors_;  ///< by level (side 2, 4, …), row-major over the whole terrain
+  std::vector<std::size_t> across_;           ///< nodes in a row of each level
+  std::vector<std::vector<Record>> records_;  ///< by level, row-major over the whole terrain
   std::vector<double> lowest_, highest_;
 };
 
