@@ -23,11 +23,16 @@ struct P2Settings {
   MethodUse dependent{"restricted_quadtree", {}};  ///< "node-dependent division"
 };
 
-/// Table 1. A trial a view.
-const std::vector<View>& p2_views();
+/// Table 1. A trial a view. The count is met at more than one distance: nearby, what lies behind the camera
+/// or aside counts for little.
+struct P2View {
+  View view;
+  bool near = false;  ///< the least distance that draws the count, else the greatest
+};
+const std::vector<P2View>& p2_views();
 Table p2_table1(const P2Settings& settings, const Picture& picture);
 inline constexpr std::size_t kP2Table1Steps = 3;
-Trial p2_trial1(const Table& table, const P2Settings& settings, const Terrain& terrain, const View& view,
+Trial p2_trial1(const Table& table, const P2Settings& settings, const Terrain& terrain, const P2View& view,
                 const Workshop& workshop);
 
 /// Table 2 twice: "P2.2a" at the terrain's own relief, the first camera placed by frame 1's visible tiles;
