@@ -116,6 +116,7 @@ std::string tables_timing_json(const tables::Timings& timings) {
                        {"terrain", entry.terrain},
                        {"what", entry.what},
                        {"paper", entry.paper.empty() ? Json() : Json(entry.paper)},
+                       {"wall_s", to_microseconds(entry.wall_s)},
                        {"cpu_s", to_microseconds(entry.cpu_s)},
                        {"peak_mb", entry.peak_mb > 0 ? Json(entry.peak_mb) : Json()}});
   }

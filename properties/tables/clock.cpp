@@ -14,9 +14,9 @@
 namespace plumbline::tables {
 namespace {
 
-double thread_time_s() {
+double seconds_on(clockid_t clock) {
   std::timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  ::clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
@@ -53,9 +53,11 @@ void gauge(Timing& timing, const std::function<void()>& work) {
   ::malloc_trim(0);  // what was freed before must not serve the work unseen
   const bool gauged = reset_peak();
   const double before_mb = status_mb("VmRSS");
-  const double start_s = thread_time_s();
+  const double wall_s = seconds_on(CLOCK_MONOTONIC);
+  const double cpu_s = seconds_on(CLOCK_PROCESS_CPUTIME_ID);
   work();
-  timing.cpu_s = thread_time_s() - start_s;
+  timing.wall_s = seconds_on(CLOCK_MONOTONIC) - wall_s;
+  timing.cpu_s = seconds_on(CLOCK_PROCESS_CPUTIME_ID) - cpu_s;
   timing.peak_mb = gauged ? std::max(0.0, status_mb("VmHWM") - before_mb) : 0;
 }
 

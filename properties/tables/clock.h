@@ -8,8 +8,8 @@
 
 namespace plumbline::tables {
 
-/// Does `work` and notes what it cost: processor time of the calling thread, and how far the program's
-/// resident memory rose above where it stood (0 where the system does not say). The memory is the whole
+/// Does `work` and notes what it cost: time on the wall, processor time of all threads, and how far the
+/// program's resident memory rose above where it stood (0 where the system does not say). All are the whole
 /// program's, so nothing else should run meanwhile.
 void gauge(Timing& timing, const std::function<void()>& work);
 

@@ -103,9 +103,10 @@ std::optional<double> ratio(const Figure& figure, const std::optional<double>& o
 /// Something that a clock or a memory gauge measured; the paper's figure beside it. Never part of a Table.
 struct Timing {
   std::string table, terrain;
-  std::string what;    ///< "preprocessing, isolated_quadtree"
-  std::string paper;   ///< as the paper says it; empty: it does not
-  double cpu_s = 0;    ///< processor time of the thread that did it
+  std::string what;   ///< "preprocessing, isolated_quadtree"
+  std::string paper;  ///< as the paper says it; empty: it does not
+  double wall_s = 0;
+  double cpu_s = 0;    ///< of all threads
   double peak_mb = 0;  ///< what it needed beyond what was there before, 10⁶ bytes; 0: not gauged
 };
 

@@ -121,14 +121,17 @@ TEST(TablesTiming, StandsApart) {
   tables::Timings timings;
   timings.machine = "a machine";
   timings.jobs = 2;
-  timings.entries = {{"P9", "hills", "preprocessing", "10 h", 0.25, 120}, {"P9", "hills", "more", "", 1, 0}};
+  timings.entries = {{"P9", "hills", "preprocessing", "10 h", 0.125, 0.25, 120},
+                     {"P9", "hills", "more", "", 1, 1, 0}};
   const auto json = nlohmann::json::parse(tables_timing_json(timings));
   EXPECT_EQ(json["schema"], "plumbline.tables_timing/1");
   EXPECT_EQ(json["entries"][0]["paper"], "10 h");
+  EXPECT_EQ(json["entries"][0]["wall_s"], 0.125);
   EXPECT_EQ(json["entries"][0]["cpu_s"], 0.25);
   EXPECT_TRUE(json["entries"][1]["paper"].is_null());
   EXPECT_TRUE(json["entries"][1]["peak_mb"].is_null());
-  EXPECT_THAT(tables_timing_md(timings), ::testing::ContainsRegex("preprocessing .*10 h .*0.250 .*120"));
+  EXPECT_THAT(tables_timing_md(timings),
+              ::testing::ContainsRegex("preprocessing .*10 h .*0.125 .*0.250 .*120"));
 }
 
 TEST(WriteTables, LeavesFourWholeFiles) {
