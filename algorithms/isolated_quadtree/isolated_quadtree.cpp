@@ -338,10 +338,10 @@ MethodDescription describe_isolated_quadtree() {
           {
               {"",
                "as published: the screen error is multiplied by cos beta",
-               {conforming, covers_domain, idempotent, path_independent, exact_at_zero}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent}},
               {"no_cos",
                "the screen error without its cosine, which the paper offers too",
-               {conforming, covers_domain, idempotent, path_independent, exact_at_zero}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
           },
       .options = {{"tile_size", "samples along a tile's side, 2^n+1", 257.0}},
       .claims =

@@ -46,9 +46,13 @@ struct Extent {
 
 Extent draw_extent(Draw& draw, const MethodDescription& method) {
   const int side = draw(rc::gen::weightedElement<int>({{3, 3}, {6, 5}, {5, 9}, {2, 17}, {1, 33}}));
-  const bool takes_clusters =
-      std::any_of(method.options.begin(), method.options.end(),
-                  [](const OptionDescription& o) { return o.name == "cluster_size"; });
+  const auto takes = [&](std::string_view option) {
+    return std::any_of(method.options.begin(), method.options.end(),
+                       [&](const OptionDescription& o) { return o.name == option; });
+  };
+  // Tiles reach beyond the terrain where they do not fit: any size will do, and some should not fit.
+  if (takes("tile_size") && draw.chance(50)) return {side + draw.whole(0, 4), side + draw.whole(0, 3), 0};
+  const bool takes_clusters = takes("cluster_size");
   if (!takes_clusters || side > 9 || draw.chance(60)) return {side, side, 0};
   const int across = draw.whole(1, 3);
   const int along = across == 1 ? draw.whole(2, 3) : draw.whole(1, 2);
@@ -62,6 +66,7 @@ void draw_options(Draw& draw, const MethodDescription& method, const Extent& ext
     if (option.name == "depth_ratio" && draw.chance(15))
       options[option.name] = draw.one_of<double>({0.05, 0.2, 0.5});
     if (option.name == "block_size" && draw.chance(60)) options[option.name] = draw.one_of<double>({3, 5, 9});
+    if (option.name == "tile_size" && draw.chance(80)) options[option.name] = draw.one_of<double>({3, 5, 9});
     if (option.name == "cull" && draw.chance(30)) options[option.name] = false;
   }
 }
