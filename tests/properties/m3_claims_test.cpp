@@ -157,15 +157,18 @@ TEST(M3Claims, M3_C1_M3_S4_AveragingLeavesTJunctionsAndMovesTheBorder) {
     if (frame.counters.tiles < 2) continue;
     ++frames;
     const oracle::ConformityReport report = oracle::check_conformity(frame.mesh, frame.domain);
+    // z0 + (z1 − z0)·m/n: four roundings of values up to twice the greatest height.
+    const double rounding_m =
+        0x1p-50 * std::max(std::fabs(input.terrain.lowest_m()), std::fabs(input.terrain.highest_m()));
     for (const oracle::Finding& finding : report.findings) {
       if (finding.kind != "t_vertex") {
         ++other;
-        fmt::print("other: {}\n", finding.kind);
       } else if (finding.gap_m == 0) {
         ++flush;
       } else {
         ++gaping;
         largest_gap_m = std::max(largest_gap_m, std::fabs(finding.gap_m));
+        EXPECT_LE(std::fabs(finding.gap_m), rounding_m);
       }
     }
     frames_with += report.findings.empty() ? 0 : 1;
@@ -191,8 +194,6 @@ TEST(M3Claims, M3_C1_M3_S4_AveragingLeavesTJunctionsAndMovesTheBorder) {
   EXPECT_GT(frames, 500U);
   EXPECT_GT(flush, 100U);
   EXPECT_GT(gaping, 10U);
-  // What averaging leaves is of rounding size (heights stay below 1000 m): no gap of the terrain's own.
-  EXPECT_LT(largest_gap_m, 0x1p-42);
   EXPECT_EQ(other, 0U) << "inside tiles nothing is broken";
   EXPECT_GT(moved_far, 0U);
 }
@@ -218,7 +219,8 @@ TEST(M3Claims, M3_C5_TrianglesPerDrawnNode) {
       const double ratio =
           static_cast<double>(frame.mesh.triangles.size()) / static_cast<double>(frame.counters.drawn);
       fmt::print("M3.C5: {} drawn nodes, {:.3f} triangles each\n", frame.counters.drawn, ratio);
-      // The paper: 8.71 to 8.75. Eight a fan, and a split point where levels meet: more of those in more nodes.
+      // The paper: 8.71 to 8.75. Eight a fan, and a split point where levels meet: more of those in more
+      // nodes.
       EXPECT_GT(ratio, 8.4);
       EXPECT_LT(ratio, 8.9);
     }
