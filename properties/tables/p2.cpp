@@ -226,13 +226,11 @@ Table p2_table2(const P2Settings& settings, const Picture& picture, Relief relie
       figure_text(settings.tiled_tiles, 0),
       own ? "; all else is a prediction" : " at the terrain's own relief, as in P2.2a")};
   if (!own) {
-    table.protocol.push_back(
-        fmt::format("Fitted too: a factor on all heights, so that frame 1 draws {} triangles (to 0.1 %). So "
-                    "frame 1 is no "
-                    "evidence here at all; the growth from it is. Two parameters, where the other tables fit "
-                    "one: with one, "
-                    "no distance draws that many over these terrains.",
-                    figure_text(settings.tiled_triangles, 0)));
+    table.protocol.push_back(fmt::format(
+        "Fitted then: a factor on all heights, so that frame 1 draws {} triangles (to 0.1 %); the tiles "
+        "that are visible over the changed heights are what comes out. Two parameters, where the "
+        "other tables fit one: at its own relief no distance draws that many over these terrains.",
+        figure_text(settings.tiled_triangles, 0)));
   }
   table.protocol.push_back(
       fmt::format("Decided: the first camera looks 18° down at the middle, {} × {} pixels, {}° high; each "
@@ -256,7 +254,7 @@ Table p2_table2(const P2Settings& settings, const Picture& picture, Relief relie
   for (const Row2& r : kTable2) {
     const bool first = &r == &kTable2[0];
     const double triangles = printed_number(r.triangles);
-    add(table, r.row, kTiles, "", 0, first ? Kind::fitted : Kind::predicted, r.tiles);
+    add(table, r.row, kTiles, "", 0, first && own ? Kind::fitted : Kind::predicted, r.tiles);
     add(table, r.row, kTriangles, "", 0, first && !own ? Kind::fitted : Kind::predicted, r.triangles);
     add(table, r.row, kShare, "%", 3, Kind::derived, r.percent, 100 * triangles / full);
     add(table, r.row, kPerTile, "", 0, Kind::derived, "", triangles / printed_number(r.tiles));
