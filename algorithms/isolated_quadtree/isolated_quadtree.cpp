@@ -9,25 +9,23 @@
 // neighbour). Promises: METHODS M3.C1–C5. Departures, with reasons: a node is drawn as a fan of eight
 // triangles over its nine samples (the paper shows no drawing; its 8.7 triangles a node confirm it); ΔZ is
 // absolute. "Upper" is north, "left" is west.
+#include "algorithms/isolated_quadtree/isolated_quadtree.h"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "algorithms/isolated_quadtree/tile_grid.h"
-#include "algorithms/registry.h"
-#include "scenarios/error.h"
 
 namespace plumbline {
 namespace {
 
 using isolated_quadtree::Node;
+using isolated_quadtree::Settings;
 using isolated_quadtree::TileGrid;
 
 /// Whether the box lies wholly on the outer side of one plane of the frustum.
@@ -55,10 +53,10 @@ constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
 class IsolatedQuadtree final : public LodMethod {
  public:
-  IsolatedQuadtree(int tile_size, bool with_cosine) : tile_size_(tile_size), with_cosine_(with_cosine) {}
+  explicit IsolatedQuadtree(const Settings& settings) : settings_(settings) {}
 
   void prepare(const Terrain& terrain) override {
-    int side = tile_size_ - 1;
+    int side = settings_.tile_samples - 1;
     const int longest = std::max(terrain.columns, terrain.rows) - 1;
     while (side / 2 >= longest && side > 2) side /= 2;  // one tile is enough
     grid_ = std::make_shared<const TileGrid>(terrain, side);
@@ -78,6 +76,7 @@ class IsolatedQuadtree final : public LodMethod {
     camera_ = &camera;
     frame_ = &frame;
     visible_.assign(grid_->tile_count(), 0);
+    if (settings_.split_both_sides) announce_borders();
     for (int b = grid_->tiles_y() - 1; b >= 0; --b) {
       for (int a = 0; a < grid_->tiles_x(); ++a) draw_tile(a, b);
     }
@@ -88,28 +87,40 @@ class IsolatedQuadtree final : public LodMethod {
   void reset() override {}
 
   [[nodiscard]] std::unique_ptr<LodMethod> clone() const override {
-    auto copy = std::make_unique<IsolatedQuadtree>(tile_size_, with_cosine_);
+    auto copy = std::make_unique<IsolatedQuadtree>(settings_);
     copy->grid_ = grid_;
     copy->set_threshold_px(threshold_px());
     return copy;
   }
 
  private:
-  void draw_tile(int a, int b) {
+  struct Rectangle {
+    Vec2 low, high;
+  };
+  /// Where a tile has data, in plan.
+  [[nodiscard]] Rectangle ground(int a, int b) const {
     const Terrain& terrain = grid_->terrain();
+    const Node tile = grid_->tile(a, b);
+    return {{tile.i * terrain.spacing_m, tile.j * terrain.spacing_m},
+            {std::min(tile.i + tile.side, terrain.columns - 1) * terrain.spacing_m,
+             std::min(tile.j + tile.side, terrain.rows - 1) * terrain.spacing_m}};
+  }
+  [[nodiscard]] bool in_sight(int a, int b) const {
+    const Rectangle plan = ground(a, b);
+    return !outside_frustum(*camera_, {plan.low.x, plan.low.y, grid_->lowest_m(a, b)},
+                            {plan.high.x, plan.high.y, grid_->highest_m(a, b)});
+  }
+
+  void draw_tile(int a, int b) {
+    if (!in_sight(a, b)) return;
     tile_ = grid_->tile(a, b);
-    const Vec2 low{tile_.i * terrain.spacing_m, tile_.j * terrain.spacing_m};
-    const Vec2 high{std::min(tile_.i + tile_.side, terrain.columns - 1) * terrain.spacing_m,
-                    std::min(tile_.j + tile_.side, terrain.rows - 1) * terrain.spacing_m};
-    if (outside_frustum(*camera_, {low.x, low.y, grid_->lowest_m(a, b)},
-                        {high.x, high.y, grid_->highest_m(a, b)})) {
-      return;
-    }
     ++frame_->counters.tiles;
-    frame_->domain.add_rectangle(low, high);
+    const Rectangle plan = ground(a, b);
+    frame_->domain.add_rectangle(plan.low, plan.high);
 
     drawn_.clear();
     divide(tile_);
+    if (settings_.split_both_sides) take_announced(a, b);
     adapt_to_neighbours(a, b);
     for (const Node& node : drawn_) draw(node);
     frame_->counters.drawn += drawn_.size();
@@ -121,11 +132,51 @@ class IsolatedQuadtree final : public LodMethod {
       south_[mine * across_ + static_cast<std::size_t>(k)] = vertex_[slot(tile_.i + k, tile_.j)];
       east_[mine * across_ + static_cast<std::size_t>(k)] = vertex_[slot(tile_.i + tile_.side, tile_.j + k)];
     }
+    clear_marks();
+  }
+
+  void clear_marks() {
     for (const std::size_t used : marked_) {
       mark_[used] = 0;
       vertex_[used] = kNoVertex;
     }
     marked_.clear();
+  }
+
+  /// `repaired`: divides every tile beforehand, and keeps what it will draw on its north and west border for
+  /// the neighbours that come first. They take it as split points; so each side has all vertices of both,
+  /// and nothing is left to average.
+  void announce_borders() {
+    const Counters before = frame_->counters;
+    north_marks_.assign(across_ * grid_->tile_count(), 0);
+    west_marks_.assign(across_ * grid_->tile_count(), 0);
+    for (int b = 0; b < grid_->tiles_y(); ++b) {
+      for (int a = 0; a < grid_->tiles_x(); ++a) {
+        if (!in_sight(a, b)) continue;
+        tile_ = grid_->tile(a, b);
+        drawn_.clear();
+        divide(tile_);
+        const std::size_t mine = grid_->tile_index(a, b) * across_;
+        for (int k = 0; k <= tile_.side; ++k) {
+          north_marks_[mine + static_cast<std::size_t>(k)] = mark_[slot(tile_.i + k, tile_.j + tile_.side)];
+          west_marks_[mine + static_cast<std::size_t>(k)] = mark_[slot(tile_.i, tile_.j + k)];
+        }
+        clear_marks();
+      }
+    }
+    frame_->counters = before;  // the second division counts
+  }
+
+  void take_announced(int a, int b) {
+    for (int k = 0; k <= tile_.side; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (b > 0 && north_marks_[grid_->tile_index(a, b - 1) * across_ + at] != 0) {
+        set_mark(tile_.i + k, tile_.j);
+      }
+      if (a + 1 < grid_->tiles_x() && west_marks_[grid_->tile_index(a + 1, b) * across_ + at] != 0) {
+        set_mark(tile_.i + tile_.side, tile_.j + k);
+      }
+    }
   }
 
   /// Isolated division (§2.3): each node decides alone. A node with no-data always splits; no-data is never
@@ -167,7 +218,7 @@ class IsolatedQuadtree final : public LodMethod {
     const double squared_m2 = dot(way, way);
     if (squared_m2 == 0) return true;
     const double scaled_error = camera_->kappa_px * record.error_m;
-    if (!with_cosine_) {
+    if (!settings_.with_cosine) {
       return scaled_error * scaled_error > threshold_px() * threshold_px() * squared_m2;
     }
     const double depth_m = dot(way, camera_->forward);
@@ -293,12 +344,12 @@ class IsolatedQuadtree final : public LodMethod {
 
   static constexpr double kAsStored = std::numeric_limits<double>::infinity();
 
-  int tile_size_;
-  bool with_cosine_;
+  Settings settings_;
   std::shared_ptr<const TileGrid> grid_;
-  std::size_t across_ = 0;                   ///< samples along a tile's border
-  std::vector<std::uint32_t> south_, east_;  ///< by tile: its border's vertices, or kNoVertex
-  std::vector<std::uint8_t> visible_;        ///< by tile
+  std::size_t across_ = 0;                              ///< samples along a tile's border
+  std::vector<std::uint32_t> south_, east_;             ///< by tile: its border's vertices, or kNoVertex
+  std::vector<std::uint8_t> visible_;                   ///< by tile
+  std::vector<std::uint8_t> north_marks_, west_marks_;  ///< `repaired`, by tile: what its border will draw
   // Of the tile in hand:
   Node tile_;
   std::vector<Node> drawn_;
@@ -311,49 +362,10 @@ class IsolatedQuadtree final : public LodMethod {
   LodFrame* frame_ = nullptr;
 };
 
-std::unique_ptr<LodMethod> make(std::string_view variant, const Options& options) {
-  const double size = option_number(options, "tile_size", 257);
-  const double cells = size - 1;
-  if (!(cells >= 2 && cells <= (1 << 20)) || cells != std::floor(cells) ||
-      !std::has_single_bit(static_cast<unsigned>(cells))) {
-    throw InputError(fmt::format(
-        "isolated_quadtree: option tile_size = {} is not 2^n+1 with n >= 1; give 3, 5, …, 257", size));
-  }
-  return std::make_unique<IsolatedQuadtree>(static_cast<int>(size), variant != "no_cos");
-}
-
 }  // namespace
 
-MethodDescription describe_isolated_quadtree() {
-  using enum Promise;
-  return {
-      .id = "isolated_quadtree",
-      .title = "Isolated division of a tiled quadtree with a conservative screen error",
-      .citation =
-          "Zhang, Yao: \"LOD algorithm of terrain based on conservative screen error and isolated division "
-          "of "
-          "quadtree\" (in Chinese), 2013",
-      .section = "M3",
-      .variants =
-          {
-              {"",
-               "as published: the screen error is multiplied by cos beta",
-               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent}},
-              {"no_cos",
-               "the screen error without its cosine, which the paper offers too",
-               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
-          },
-      .options = {{"tile_size", "samples along a tile's side, 2^n+1", 257.0}},
-      .claims =
-          {
-              {"M3.C1", "no cracks, inside tiles and between them"},
-              {"M3.C2", "a parent's error is never below a child's"},
-              {"M3.C3", "the screen error never exceeds tau"},
-              {"M3.C4", "isolated division avoids the redundancy of dependent division"},
-              {"M3.C5", "about 8.7 triangles a drawn node"},
-          },
-      .make = make,
-  };
+std::unique_ptr<LodMethod> make_isolated_quadtree(const isolated_quadtree::Settings& settings) {
+  return std::make_unique<IsolatedQuadtree>(settings);
 }
 
 }  // namespace plumbline

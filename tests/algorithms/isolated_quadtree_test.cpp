@@ -204,6 +204,26 @@ TEST(IsolatedQuadtree, BetweenTilesEveryMovedVertexLiesOnTheNeighboursEdge) {
   EXPECT_GT(on_edges, 100);
 }
 
+TEST(IsolatedQuadtree, RepairedHasNoTVertexBetweenTilesAndMovesNothing) {
+  Random random(8);
+  int several_tiles = 0;
+  for (int round = 0; round < 100; ++round) {
+    const Terrain terrain = lattice::rough(33, 33, static_cast<std::uint64_t>(round), 30);
+    Flyer flyer(terrain, 9, "isolated_quadtree:repaired");
+    const LodFrame frame = flyer.look(whole_view(terrain), std::exp2(random.between(-1, 4)));
+    const lattice::Faults faults = lattice::look_at(terrain, frame);
+    EXPECT_EQ(faults.t_junctions, 0);
+    EXPECT_EQ(faults.turned, 0);
+    EXPECT_EQ(faults.inner_border, 0);
+    EXPECT_EQ(faults.double_area, lattice::double_area(terrain));
+    for (std::size_t v = 0; v < frame.vertex_keys.size(); ++v) {
+      EXPECT_EQ(frame.mesh.positions[v].z, terrain.heights_m[frame.vertex_keys[v]]);
+    }
+    several_tiles += frame.counters.drawn > frame.counters.tiles ? 1 : 0;
+  }
+  EXPECT_GT(several_tiles, 50);
+}
+
 TEST(IsolatedQuadtree, NoDataBeyondTheTerrainIsNeverDrawn) {
   Random random(7);
   for (const auto& [columns, rows] :
