@@ -8,7 +8,7 @@
 // inside tiles (split points) and between them (split points or height averaging against the upper and left
 // neighbour). Promises: METHODS M3.C1–C5. Departures, with reasons: a node is drawn as a fan of eight
 // triangles over its nine samples (the paper shows no drawing; its 8.7 triangles a node confirm it); ΔZ is
-// absolute. "Upper" is north, "left" is west.
+// absolute. "Upper" is north, "left" is west, so short tiles stand at the east and south.
 #include "algorithms/isolated_quadtree/isolated_quadtree.h"
 
 #include <algorithm>
@@ -101,9 +101,9 @@ class IsolatedQuadtree final : public LodMethod {
   [[nodiscard]] Rectangle ground(int a, int b) const {
     const Terrain& terrain = grid_->terrain();
     const Node tile = grid_->tile(a, b);
-    return {{tile.i * terrain.spacing_m, tile.j * terrain.spacing_m},
+    return {{tile.i * terrain.spacing_m, std::max(tile.j, 0) * terrain.spacing_m},
             {std::min(tile.i + tile.side, terrain.columns - 1) * terrain.spacing_m,
-             std::min(tile.j + tile.side, terrain.rows - 1) * terrain.spacing_m}};
+             (tile.j + tile.side) * terrain.spacing_m}};
   }
   [[nodiscard]] bool in_sight(int a, int b) const {
     const Rectangle plan = ground(a, b);
@@ -182,8 +182,7 @@ class IsolatedQuadtree final : public LodMethod {
   /// Isolated division (§2.3): each node decides alone. A node with no-data always splits; no-data is never
   /// drawn.
   void divide(Node node) {
-    const Terrain& terrain = grid_->terrain();
-    if (node.i + 1 >= terrain.columns || node.j + 1 >= terrain.rows) return;  // no triangle of data in it
+    if (!grid_->holds_ground(node)) return;
     ++frame_->counters.visited;
     const bool whole = grid_->whole(node);
     if (node.side > 2 && (!whole || splits(node))) {

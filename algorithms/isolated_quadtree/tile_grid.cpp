@@ -16,6 +16,7 @@ TileGrid::TileGrid(const Terrain& terrain, int tile_side)
       tile_side_(tile_side),
       tiles_x_((terrain.columns - 2) / tile_side + 1),
       tiles_y_((terrain.rows - 2) / tile_side + 1),
+      first_row_(terrain.rows - 1 - tiles_y_ * tile_side),
       lowest_(tile_count()),
       highest_(tile_count()) {
   for (int side = 2; side <= tile_side_; side *= 2) {
@@ -39,10 +40,10 @@ std::uint64_t TileGrid::node_count() const {
 void TileGrid::fill_tile(int a, int b) {
   const Node square = tile(a, b);
   const int columns_end = std::min(square.i + square.side, terrain_.columns - 1);
-  const int rows_end = std::min(square.j + square.side, terrain_.rows - 1);
+  const int rows_end = square.j + square.side;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (int j = square.j; j <= rows_end; ++j) {
+  for (int j = std::max(square.j, 0); j <= rows_end; ++j) {
     for (int i = square.i; i <= columns_end; ++i) {
       low = std::min(low, terrain_.z(i, j));
       high = std::max(high, terrain_.z(i, j));
@@ -77,7 +78,7 @@ double TileGrid::own_error_m(Node node) const {
     i1 = node.i + i1 * q;
     j0 = node.j + j0 * q;
     j1 = node.j + j1 * q;
-    if (!has_data(std::max(i0, i1), std::max(j0, j1))) return;
+    if (!has_data(std::max(i0, i1), std::min(j0, j1))) return;
     const double between = (terrain_.z(i0, j0) + terrain_.z(i1, j1)) / 2;
     error = std::max(error, std::abs(terrain_.z((i0 + i1) / 2, (j0 + j1) / 2) - between));
   };

@@ -22,8 +22,10 @@ struct Node {
 };
 
 /// The terrain cut into tiles of (2ⁿ+1)² samples that share their border rows and columns, with the
-/// conservative geometric error of every quadtree node (§2.2), bottom-up. Tiles at the east and north border
-/// may reach beyond the terrain: samples there are no-data.
+/// conservative geometric error of every quadtree node (§2.2), bottom-up. As on a map, the paper's
+/// first row is the northernmost: tiles count from the north-west corner, and those at the right (east) and
+/// bottom (south) border may reach beyond the terrain. Samples there are no-data; those south of the terrain
+/// have negative rows.
 class TileGrid {
  public:
   /// One linear pass, tiles in parallel; the same bits on any number of threads. Requires: tile_side is a
@@ -39,15 +41,19 @@ class TileGrid {
   /// Nodes of all tiles' quadtrees, those without data among them.
   [[nodiscard]] std::uint64_t node_count() const;
   [[nodiscard]] const Terrain& terrain() const { return terrain_; }
-  [[nodiscard]] Node tile(int a, int b) const { return {a * tile_side_, b * tile_side_, tile_side_}; }
-  /// Row-major from the south-west.
+  [[nodiscard]] Node tile(int a, int b) const {
+    return {a * tile_side_, first_row_ + b * tile_side_, tile_side_};
+  }
+  /// Tile (a, b) stands a-th from the west, b-th from the south; the index is row-major from the south-west.
   [[nodiscard]] std::size_t tile_index(int a, int b) const {
     return static_cast<std::size_t>(b) * static_cast<std::size_t>(tiles_x_) + static_cast<std::size_t>(a);
   }
-  [[nodiscard]] bool has_data(int i, int j) const { return i < terrain_.columns && j < terrain_.rows; }
+  [[nodiscard]] bool has_data(int i, int j) const { return i < terrain_.columns && j >= 0; }
   /// Whether all samples of the node's square are data.
-  [[nodiscard]] bool whole(Node node) const {
-    return node.i + node.side < terrain_.columns && node.j + node.side < terrain_.rows;
+  [[nodiscard]] bool whole(Node node) const { return node.i + node.side < terrain_.columns && node.j >= 0; }
+  /// Whether the square holds any cell of the terrain.
+  [[nodiscard]] bool holds_ground(Node node) const {
+    return node.i + 1 < terrain_.columns && node.j + node.side >= 1;
   }
   /// What the split test reads of a node, side by side in memory.
   struct Record {
@@ -67,7 +73,7 @@ class TileGrid {
   }
   [[nodiscard]] std::size_t slot(Node node) const {
     const std::size_t shift = level(node.side) + 1;
-    return (static_cast<std::size_t>(node.j) >> shift) * across_[shift - 1] +
+    return (static_cast<std::size_t>(node.j - first_row_) >> shift) * across_[shift - 1] +
            (static_cast<std::size_t>(node.i) >> shift);
   }
   void fill_tile(int a, int b);
@@ -75,6 +81,7 @@ class TileGrid {
 
   const Terrain& terrain_;
   int tile_side_, tiles_x_, tiles_y_;
+  int first_row_;                             ///< of the southernmost tiles; at most 0
   std::vector<std::size_t> across_;           ///< nodes in a row of each level
   std::vector<std::vector<Record>> records_;  ///< by level, row-major over the whole terrain
   std::vector<double> lowest_, highest_;

@@ -91,7 +91,22 @@ TEST(IsolatedQuadtree, ErrorIsTheLargestDeviationOfTheNextSamplesFromTheFan) {
 TEST(IsolatedQuadtree, NoDataEntersNoError) {
   Terrain terrain = lattice::flat(4, 4);
   for (double& z : terrain.heights_m) z = 100;
-  EXPECT_EQ(TileGrid(terrain, 4).error_m({0, 0, 4}), 0);
+  const TileGrid grid(terrain, 4);
+  EXPECT_EQ(grid.error_m(grid.tile(0, 0)), 0);
+}
+
+TEST(IsolatedQuadtree, ShortTilesStandAtTheRightAndTheBottom) {
+  const Terrain terrain = lattice::flat(10, 8);
+  const TileGrid grid(terrain, 4);
+  EXPECT_EQ(grid.tiles_x(), 3);
+  EXPECT_EQ(grid.tiles_y(), 2);
+  EXPECT_TRUE(grid.whole(grid.tile(0, 1)));   // upper left
+  EXPECT_FALSE(grid.whole(grid.tile(2, 1)));  // upper right: one column of cells
+  EXPECT_FALSE(grid.whole(grid.tile(0, 0)));  // lower left: three rows of cells
+  EXPECT_EQ(grid.tile(0, 1).j + 4, terrain.rows - 1);
+  EXPECT_EQ(grid.tile(0, 0).j, -1);
+  EXPECT_FALSE(grid.has_data(0, -1));
+  EXPECT_FALSE(grid.has_data(10, 0));
 }
 
 TEST(IsolatedQuadtree, M3_C1_OneTileHasNoCrackOverAnyLevelDifference) {
