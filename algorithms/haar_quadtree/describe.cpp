@@ -58,10 +58,10 @@ MethodDescription describe_haar_quadtree() {
           {
               {"",
                "as published: bottom-up at the first frame, then one level of change a frame",
-               {conforming}},
+               {conforming, screen_error_within_tau}},
               {"morph",
                "children move to their parent while its error is between tau and lambda tau",
-               {conforming}},
+               {conforming, continuous_in_camera}},
           },
       .options =
           {

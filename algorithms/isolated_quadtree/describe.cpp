@@ -43,7 +43,8 @@ MethodDescription describe_isolated_quadtree() {
           {
               {"",
                "as published: the screen error is multiplied by cos beta",
-               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent,
+                screen_error_within_tau}},
               {"no_cos",
                "the screen error without its cosine, which the paper offers too",
                {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},

@@ -44,6 +44,11 @@ struct Extent {
   int cluster_samples;  ///< 0: leave the option at its default
 };
 
+bool has_option(const MethodDescription& method, std::string_view name) {
+  return std::any_of(method.options.begin(), method.options.end(),
+                     [&](const OptionDescription& o) { return o.name == name; });
+}
+
 Extent draw_extent(Draw& draw, const MethodDescription& method) {
   const int side = draw(rc::gen::weightedElement<int>({{3, 3}, {6, 5}, {5, 9}, {2, 17}, {1, 33}}));
   const auto takes = [&](std::string_view option) {
@@ -61,12 +66,17 @@ Extent draw_extent(Draw& draw, const MethodDescription& method) {
 
 /// Options of the method's own, where it has them; most trials keep the defaults, which the claims are about.
 void draw_options(Draw& draw, const MethodDescription& method, const Extent& extent, Options& options) {
-  if (extent.cluster_samples != 0) options["cluster_size"] = double{1} * extent.cluster_samples;
+  if (extent.cluster_samples != 0) {
+    if (has_option(method, "cluster_size")) options["cluster_size"] = double{1} * extent.cluster_samples;
+    if (has_option(method, "patch_size")) options["patch_size"] = double{1} * (extent.cluster_samples - 1);
+  }
   for (const OptionDescription& option : method.options) {
     if (option.name == "depth_ratio" && draw.chance(15))
       options[option.name] = draw.one_of<double>({0.05, 0.2, 0.5});
     if (option.name == "block_size" && draw.chance(60)) options[option.name] = draw.one_of<double>({3, 5, 9});
     if (option.name == "tile_size" && draw.chance(80)) options[option.name] = draw.one_of<double>({3, 5, 9});
+    if (option.name == "max_nodes" && draw.chance(20))
+      options[option.name] = draw.one_of<double>({1, 4, 7, 16, 40});
     if (option.name == "cull" && draw.chance(30)) options[option.name] = false;
   }
 }

@@ -37,6 +37,8 @@ const std::vector<Law>& all_laws() {
       law_exact_at_zero(),
       law_scaling_keeps_topology(),
       law_symmetric(),
+      law_screen_error_within_tau(),
+      law_continuous_in_camera(),
   };
   return laws;
 }

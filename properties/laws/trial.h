@@ -54,5 +54,7 @@ Law law_path_independent();
 Law law_exact_at_zero();
 Law law_scaling_keeps_topology();
 Law law_symmetric();
+Law law_screen_error_within_tau();
+Law law_continuous_in_camera();
 
 }  // namespace plumbline::properties

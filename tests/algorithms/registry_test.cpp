@@ -228,11 +228,12 @@ TEST(Registry, ChecksOptionTypes) {
 TEST(Registry, EveryPromiseHasAName) {
   using enum Promise;
   std::set<std::string_view> names;
-  for (const Promise p : {conforming, covers_domain, monotone_in_tau, idempotent, path_independent,
-                          exact_at_zero, symmetric, threshold_blind}) {
+  for (const Promise p :
+       {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero, symmetric,
+        threshold_blind, screen_error_within_tau, continuous_in_camera}) {
     names.insert(promise_name(p));
   }
-  EXPECT_EQ(names.size(), 8U);
+  EXPECT_EQ(names.size(), 10U);
   EXPECT_FALSE(names.contains("unknown"));
 }
 

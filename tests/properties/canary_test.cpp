@@ -187,6 +187,42 @@ TEST(Canary, SymmetricCatchesAPreferredCorner) {
   expect_caught("symmetric", fault);
 }
 
+/// All samples, whatever the threshold: nothing is displaced.
+Fault every_sample() {
+  Fault fault;
+  fault.threshold = [](const Memory&, double) { return 0x1p-60; };
+  return fault;
+}
+
+TEST(Canary, ScreenErrorWithinTauCatchesARaisedSurface) {
+  const Count sound = judge_cases("screen_error_within_tau", every_sample());
+  EXPECT_EQ(sound.violated, 0);
+  EXPECT_GT(sound.held, 0);
+  Fault raised = every_sample();
+  raised.spoil = [](const Memory&, LodFrame& frame) {
+    for (Vec3& p : frame.mesh.positions) p.z += 1000;
+  };
+  EXPECT_GT(judge_cases("screen_error_within_tau", raised).violated, 0);
+}
+
+TEST(Canary, ContinuousInCameraCatchesAVertexThatMovesInAMerge) {
+  Fault still;
+  still.spoil = [](const Memory&, LodFrame& frame) {
+    frame.counters.split = 0;
+    frame.counters.merged = 1;
+  };
+  const Count sound = judge_cases("continuous_in_camera", still);
+  EXPECT_EQ(sound.violated, 0);
+  EXPECT_GT(sound.held, 0);
+  Fault moving;
+  moving.spoil = [](const Memory& memory, LodFrame& frame) {
+    frame.counters.split = 0;
+    frame.counters.merged = 1;
+    if (!frame.mesh.positions.empty()) frame.mesh.positions[0].z += memory.updates;
+  };
+  EXPECT_GT(judge_cases("continuous_in_camera", moving).violated, 0);
+}
+
 /// A 9 × 9 terrain with one bump: errors of the children reach the parents by saturation alone.
 Terrain bump() {
   Terrain terrain;
