@@ -112,36 +112,30 @@ Table p0_table(const Picture& picture) {
   table.id = "P0";
   table.title = "ATL (Haar vertex quadtree) beside QUADTin, 512 × 512 grid in 16 patches of 128 × 128";
   table.source =
-      "E. Yusov, V. Turlapov, Dynamic terrain simplification based on Haar transform and vertices quadtree, "
-      "GraphiCon 2006, appendix, figures 6–8 and section 4";
+      "E. Yusov, V. Turlapov, Dynamic terrain simplification based on Haar transform and vertices "
+      "quadtree, GraphiCon 2006, appendix, figures 6–8 and section 4";
   table.protocol = {
-      "Fitted: for each picture the τ at which ATL's first frame has the published count, by bisection. All "
-      "else is prediction or measurement.",
-      "ATL is haar_quadtree, QUADTin's stand-in the restricted quadtree. Neither culls, so that counts are "
-      "of "
-      "the whole terrain, as the paper's percentages are.",
-      "Decided: two triangulations are equally good if the 99th percentile of O3's displacement is the same, "
-      "against the samples that ATL represents, seen from the same camera. It is met as near as its jumps "
-      "allow; "
-      "what was reached stands below. Equal maximum and equal τ stand beside it, since the paper does not "
-      "say "
-      "what it held equal.",
+      "Fitted: for each picture the τ at which ATL's first frame has the published count, by bisection. "
+      "All else is prediction or measurement.",
+      "ATL is haar_quadtree, QUADTin's stand-in the restricted quadtree. Neither culls, so that counts "
+      "are of the whole terrain, as the paper's percentages are.",
+      "Decided: two triangulations are equally good if the 99th percentile of O3's displacement is the "
+      "same, against the samples that ATL represents, seen from the same camera. It is met as near as "
+      "its jumps allow; what was reached stands below. Equal maximum and equal τ stand beside it, since "
+      "the paper does not say what it held equal.",
       fmt::format(
           "Decided: the paper's cameras are unknown; three views onto the middle of the terrain, {} × {} "
           "pixels, {}° high, give a range.",
           picture.width_px, picture.height_px, picture.fov_y_deg),
       "Nodes visited and errors evaluated: of all nodes of the forest, in the top-down pass of the next "
-      "frame, "
-      "the camera moved by 1 % of the terrain's width towards what it looks at.",
+      "frame, the camera moved by 1 % of the terrain's width towards what it looks at.",
   };
   table.notes = {
       "524 288 = 2·512² counts cells; 512 × 512 vertices have 2·511² = 522 242 triangles.",
       "Figure 7b prints 4.6 %: 23 510 of 524 288 is 4.48 %, so 4.5 is meant.",
-      "Nodes visited is an identity: R roots in P patches are seen by (4R − P)/3 visits, of (4N − P)/3 nodes "
-      "over N "
-      "samples, so the share is that of the triangles. The paper's 1.3–7.3 % says no more than its counts. "
-      "What "
-      "informs is the share whose error is evaluated.",
+      "Nodes visited is an identity: R roots in P patches are seen by (4R − P)/3 visits, of (4N − P)/3 "
+      "nodes over N samples, so the share is that of the triangles. The paper's 1.3–7.3 % says no more "
+      "than its counts. What informs is the share whose error is evaluated.",
   };
   const auto add = [&](const char* row, const char* name, const char* unit, int decimals, Kind kind,
                        const char* printed, std::optional<double> recomputed) {

@@ -17,8 +17,8 @@ namespace plumbline::tables {
 namespace {
 
 constexpr const char* kSource =
-    "Zhang Junfeng, Yao Zhihong, LOD algorithm of terrain based on conservative screen error and isolated "
-    "division of quadtree, Journal of Southwest Jiaotong University 48(4), 2013";
+    "Zhang Junfeng, Yao Zhihong, LOD algorithm of terrain based on conservative screen error and "
+    "isolated division of quadtree, Journal of Southwest Jiaotong University 48(4), 2013";
 
 constexpr const char* kFull = "full triangles";
 constexpr const char* kTriangles = "triangles";
@@ -124,17 +124,16 @@ Table p2_table1(const P2Settings& settings, const Picture& picture) {
   table.source = fmt::format("{}, experiment 1, table 1", kSource);
   table.protocol = {
       fmt::format("Fitted: the camera's distance from the middle of the terrain, so that ε = 4 draws {} "
-                  "triangles. ε = 3 and ε = 2 are predictions from the same place. More than one distance "
-                  "draws that many: "
-                  "the greatest is taken (far) and the least (near), which may be the same.",
+                  "triangles. ε = 3 and ε = 2 are predictions from the same place. More than one "
+                  "distance draws that many: the greatest is taken (far) and the least (near), which may "
+                  "be the same.",
                   figure_text(settings.whole_triangles, 0)),
       fmt::format(
           "Decided: the paper's camera is unknown; three views, {} × {} pixels, {}° high, looking at the "
           "middle.",
           picture.width_px, picture.height_px, picture.fov_y_deg),
-      "Displacement (O3) is measured against the full grid; the paper measured none. Its claim is that it "
-      "stays "
-      "under ε.",
+      "Displacement (O3) is measured against the full grid; the paper measured none. Its claim is that "
+      "it stays under ε.",
       "Seconds per frame are not compared: they are of another machine, and hold the drawing.",
   };
   table.notes = {
@@ -228,25 +227,22 @@ Table p2_table2(const P2Settings& settings, const Picture& picture, Relief relie
   if (!own) {
     table.protocol.push_back(fmt::format(
         "Fitted then: a factor on all heights, so that frame 1 draws {} triangles (to 0.1 %); the tiles "
-        "that are visible over the changed heights are what comes out. Two parameters, where the "
-        "other tables fit one: at its own relief no distance draws that many over these terrains.",
+        "that are visible over the changed heights are what comes out. Two parameters, where the other "
+        "tables fit one: what the own relief draws stands in P2.2a.",
         figure_text(settings.tiled_triangles, 0)));
   }
   table.protocol.push_back(
       fmt::format("Decided: the first camera looks 18° down at the middle, {} × {} pixels, {}° high; each "
-                  "snapshot stands a "
-                  "tenth of the first one's distance further back, either along the line of sight or on a "
-                  "level. The paper "
-                  "says no more than \"far from the ground, gradually moving back\".",
+                  "snapshot stands a tenth of the first one's distance further back, either along the "
+                  "line of sight or on a level. The paper says no more than \"far from the ground, "
+                  "gradually moving back\".",
                   picture.width_px, picture.height_px, picture.fov_y_deg));
   table.protocol.emplace_back(
-      "Tiles outside the view frustum are skipped; nothing is hidden by anything else. The paper's counts "
-      "may "
-      "include occlusion culling, which it cites.");
+      "Tiles outside the view frustum are skipped; nothing is hidden by anything else. The paper's "
+      "counts may include occlusion culling, which it cites.");
   table.notes = {
-      "Preprocessing: the extracted digits \"12345610.698\" hold six frame numbers and 10.698 s, or 610.698 "
-      "s if "
-      "a 6 was printed twice and lost once. Neither is predicted; ours is in the timings.",
+      "Preprocessing: the extracted digits \"12345610.698\" hold six frame numbers and 10.698 s, or "
+      "610.698 s if a 6 was printed twice and lost once. Neither is predicted; ours is in the timings.",
       "4097² in tiles of 257 is 16 × 16 tiles, and 33 554 432 = 2·4096² triangles.",
   };
   const double full = 2.0 * 4096 * 4096;
