@@ -35,9 +35,9 @@ MethodDescription describe_isolated_quadtree() {
       .id = "isolated_quadtree",
       .title = "Isolated division of a tiled quadtree with a conservative screen error",
       .citation =
-          "Zhang, Yao: \"LOD algorithm of terrain based on conservative screen error and isolated division "
-          "of "
-          "quadtree\" (in Chinese), 2013",
+          "Zhang Junfeng, Yao Zhihong: \"LOD algorithm of terrain based on conservative screen error and "
+          "isolated division of quadtree\" (in Chinese), Journal of Southwest Jiaotong University 48(4), "
+          "2013",
       .section = "M3",
       .variants =
           {
@@ -47,7 +47,8 @@ MethodDescription describe_isolated_quadtree() {
                 screen_error_within_tau}},
               {"no_cos",
                "the screen error without its cosine, which the paper offers too",
-               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
+               {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero,
+                screen_error_within_tau}},
               {"repaired",
                "neighbouring tiles give each other split points, and no height is averaged",
                {conforming, covers_domain, monotone_in_tau, idempotent, path_independent}},
