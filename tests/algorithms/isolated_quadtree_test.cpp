@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "algorithms/isolated_quadtree/tile_grid.h"
 #include "algorithms/registry.h"
@@ -237,6 +238,59 @@ TEST(IsolatedQuadtree, RepairedHasNoTVertexBetweenTilesAndMovesNothing) {
     several_tiles += frame.counters.drawn > frame.counters.tiles ? 1 : 0;
   }
   EXPECT_GT(several_tiles, 50);
+}
+
+TEST(IsolatedQuadtree, RepairedKeepsToShortTilesAndToTheTilesInSight) {
+  Random random(9);
+  int hidden = 0;
+  for (int round = 0; round < 300; ++round) {
+    const int columns = static_cast<int>(random.between(2, 31));
+    const int rows = static_cast<int>(random.between(2, 31));
+    const Terrain terrain = lattice::rough(columns, rows, static_cast<std::uint64_t>(round), 10);
+    Flyer flyer(terrain, 9, "isolated_quadtree:repaired");
+    const LodFrame frame = flyer.look(lattice::any_camera(random, terrain), std::exp2(random.between(-4, 4)));
+    const lattice::Faults faults = lattice::look_at(terrain, frame);
+    EXPECT_EQ(faults.t_junctions, 0);
+    EXPECT_EQ(faults.turned, 0);
+    EXPECT_EQ(faults.doubled, 0);
+    EXPECT_NEAR(static_cast<double>(faults.double_area), lattice::double_area(frame.domain, 1),
+                lattice::kAreaRoundingCells);
+    hidden += faults.double_area < lattice::double_area(terrain) ? 1 : 0;
+  }
+  EXPECT_GT(hidden, 30);
+}
+
+TEST(IsolatedQuadtree, NothingAdaptsToATileOutsideTheFrustum) {
+  // The north tile is divided for its bump; the south tile would take split points from it, were it drawn.
+  Terrain terrain = lattice::flat(5, 9);
+  terrain.heights_m[terrain.index(2, 7)] = 1;
+  Flyer flyer(terrain, 5);
+  const LodFrame both = flyer.look(make_camera({2, 4, 9}, {2, 4.1, 0}, 90, 200, 200), 1);
+  ASSERT_EQ(both.counters.tiles, 2U);
+  EXPECT_EQ(both.counters.drawn, 5U);
+  EXPECT_EQ(both.mesh.triangles.size(), 5U * 8 + 2);
+  const LodFrame south = flyer.look(make_camera({2, 1, 9}, {2, 1.1, 0}, 20, 200, 200), 1);
+  ASSERT_EQ(south.counters.tiles, 1U);
+  EXPECT_EQ(south.mesh.triangles.size(), 8U);
+}
+
+TEST(IsolatedQuadtree, PreparesTheSameOnAnyNumberOfThreads) {
+  const Terrain terrain = lattice::rough(150, 131, 3, 40);
+  const auto errors = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const TileGrid grid(terrain, 16);
+    std::vector<double> out;
+    for (int side = 2; side <= 16; side *= 2) {
+      for (int j = grid.tile(0, 0).j; j + side < terrain.rows; j += side) {
+        for (int i = 0; i + 1 < terrain.columns; i += side) out.push_back(grid.error_m({i, j, side}));
+      }
+    }
+    return out;
+  };
+  const std::vector<double> alone = errors(1);
+  EXPECT_GT(*std::max_element(alone.begin(), alone.end()), 0);
+  EXPECT_EQ(alone, errors(2));
+  EXPECT_EQ(alone, errors(7));
 }
 
 TEST(IsolatedQuadtree, NoDataBeyondTheTerrainIsNeverDrawn) {
