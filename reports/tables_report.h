@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "properties/tables/table.h"
+#include "properties/verdict/paper_table.h"
 
 /// The papers' tables as text. Markdown, JSON and CSV depend on the tables alone: same tables, same bytes.
 /// What a clock measured stands apart.

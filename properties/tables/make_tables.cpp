@@ -6,7 +6,6 @@
 #include "properties/tables/make_tables.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -17,7 +16,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "properties/tables/clock.h"
+#include "properties/harness/gauge.h"
 #include "scenarios/error.h"
 #include "scenarios/nearest.h"
 
@@ -123,7 +122,10 @@ class Maker {
     timing.what = fmt::format("preprocessing, {}, {} x {} samples", use.id, terrain.columns, terrain.rows);
     timing.paper = paper;
     std::unique_ptr<LodMethod> method;
-    gauge(timing, [&] { method = prepared(use, terrain); });
+    const Cost cost = gauge([&] { method = prepared(use, terrain); });
+    timing.wall_s = cost.wall_s;
+    timing.cpu_s = cost.cpu_s;
+    timing.peak_mb = cost.peak_mb;
     timings.push_back(timing);
     return method;
   }
@@ -248,7 +250,7 @@ TablesOutcome make_tables(const std::vector<std::string>& papers, const TableSet
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const oracle::RayDevice device;
   const std::size_t total = steps_of(papers, settings);
   std::atomic<std::size_t> done{0};
@@ -261,7 +263,7 @@ TablesOutcome make_tables(const std::vector<std::string>& papers, const TableSet
   tbb::task_arena arena(jobs);
   arena.execute([&] { outcome = make(papers, settings, workshop); });
   outcome.timings.jobs = jobs;
-  outcome.timings.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.timings.total_s = stopwatch.elapsed_s();
   outcome.timings.process_peak_mb = process_peak_mb();
   return outcome;
 }

@@ -11,7 +11,7 @@
 #include "properties/tables/p0.h"
 #include "properties/tables/p2.h"
 #include "properties/tables/stage.h"
-#include "properties/tables/table.h"
+#include "properties/verdict/paper_table.h"
 
 namespace plumbline::tables {
 

@@ -12,7 +12,7 @@
 
 #include "algorithms/registry.h"
 #include "oracle/image.h"
-#include "properties/tables/table.h"
+#include "properties/verdict/paper_table.h"
 #include "scenarios/camera.h"
 #include "scenarios/terrain_source.h"
 

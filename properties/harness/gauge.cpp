@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "properties/tables/clock.h"
+#include "properties/harness/gauge.h"
 
 #include <algorithm>
 #include <ctime>
@@ -11,7 +11,7 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
-namespace plumbline::tables {
+namespace plumbline {
 namespace {
 
 double seconds_on(clockid_t clock) {
@@ -42,13 +42,16 @@ double g_earlier_peak_mb = 0;
 
 }  // namespace
 
+Stopwatch::Stopwatch() : start_s_(seconds_on(CLOCK_MONOTONIC)) {}
+double Stopwatch::elapsed_s() const { return seconds_on(CLOCK_MONOTONIC) - start_s_; }
+
 double process_peak_mb() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return std::max({g_earlier_peak_mb, status_mb("VmHWM"), static_cast<double>(usage.ru_maxrss) * 1024e-6});
 }
 
-void gauge(Timing& timing, const std::function<void()>& work) {
+Cost gauge(const std::function<void()>& work) {
   g_earlier_peak_mb = process_peak_mb();
   ::malloc_trim(0);  // what was freed before must not serve the work unseen
   const bool gauged = reset_peak();
@@ -56,9 +59,11 @@ void gauge(Timing& timing, const std::function<void()>& work) {
   const double wall_s = seconds_on(CLOCK_MONOTONIC);
   const double cpu_s = seconds_on(CLOCK_PROCESS_CPUTIME_ID);
   work();
-  timing.wall_s = seconds_on(CLOCK_MONOTONIC) - wall_s;
-  timing.cpu_s = seconds_on(CLOCK_PROCESS_CPUTIME_ID) - cpu_s;
-  timing.peak_mb = gauged ? std::max(0.0, status_mb("VmHWM") - before_mb) : 0;
+  Cost cost;
+  cost.wall_s = seconds_on(CLOCK_MONOTONIC) - wall_s;
+  cost.cpu_s = seconds_on(CLOCK_PROCESS_CPUTIME_ID) - cpu_s;
+  cost.peak_mb = gauged ? std::max(0.0, status_mb("VmHWM") - before_mb) : 0;
+  return cost;
 }
 
-}  // namespace plumbline::tables
+}  // namespace plumbline

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "properties/tables/table.h"
+#include "properties/verdict/paper_table.h"
 
 #include <algorithm>
 #include <cmath>
