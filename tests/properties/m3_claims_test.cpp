@@ -118,9 +118,23 @@ TEST(M3Claims, M3_S3_TheCentreOfABigNodeIsFarFromItsNearestPoint) {
   }
 }
 
+/// The method's mesh of every sample: its fans' diagonals run to the centres, those of the reference surface
+/// to the north-east. Measured against its own full mesh, a frame shows what simplifying displaced, and not
+/// what the other diagonals do.
+LodFrame own_full_mesh(const Terrain& terrain, double tile_size, const Camera& camera) {
+  constexpr double kVanishingPx = 1e-12;
+  const auto method = make_method("isolated_quadtree:no_cos", tile(tile_size));
+  method->prepare(terrain);
+  method->set_threshold_px(kVanishingPx);
+  LodFrame frame;
+  method->update(camera, frame);
+  return frame;
+}
+
 TEST(M3Claims, M3_C3_TauIsExceededOnRandomTerrainToo) {
-  int judged_frames = 0, exceeded = 0;
-  double largest = 0;
+  static const oracle::RayDevice device;
+  int judged_frames = 0, exceeded = 0, over_reference = 0;
+  std::vector<double> ratios;
   for (std::uint64_t k = 0; k < 1500; ++k) {
     const LawInput input = draw_case("isolated_quadtree", 43, k).input;
     const CameraPose& pose = input.poses.back();
@@ -128,16 +142,27 @@ TEST(M3Claims, M3_C3_TauIsExceededOnRandomTerrainToo) {
     // One tile: what averaging between tiles adds is M3.S4's.
     const Judged judged =
         judge_frame("isolated_quadtree", tile(65), input.terrain, camera, input.threshold_px);
-    if (judged.displacement_px.count == 0) continue;
+    const LodFrame full_frame = own_full_mesh(input.terrain, 65, camera);
+    if (judged.frame.mesh.triangles.empty() || full_frame.mesh.triangles.empty()) continue;
+    const oracle::RaySurface full(device, full_frame.mesh), drawn(device, judged.frame.mesh);
+    const oracle::ImageError error =
+        oracle::image_error(camera, full, full.look(camera), drawn, drawn.look(camera), input.threshold_px);
+    if (error.displacement_px.count == 0) continue;
     ++judged_frames;
-    const double ratio = judged.displacement_px.max / input.threshold_px;
+    const double ratio = error.displacement_px.max / input.threshold_px;
+    if (ratio > 1) ratios.push_back(ratio);
     exceeded += ratio > 1 ? 1 : 0;
-    largest = std::max(largest, ratio);
+    over_reference += judged.displacement_px.max > input.threshold_px ? 1 : 0;
   }
-  fmt::print("M3.C3: {} of {} frames of one tile exceed tau, at most {:.1f} tau\n", exceeded, judged_frames,
-             largest);
+  std::sort(ratios.begin(), ratios.end());
+  ASSERT_FALSE(ratios.empty());
+  fmt::print(
+      "M3.C3: {} of {} frames of one tile exceed tau, median of those {:.2f} tau, at most {:.4g} tau; "
+      "against "
+      "the reference surface, other diagonals and all, {}\n",
+      exceeded, judged_frames, ratios[ratios.size() / 2], ratios.back(), over_reference);
   EXPECT_GT(judged_frames, 500);
-  EXPECT_GT(exceeded, 0);
+  EXPECT_GT(exceeded, 10);
 }
 
 TEST(M3Claims, M3_C1_M3_S4_AveragingLeavesTJunctionsAndMovesTheBorder) {
