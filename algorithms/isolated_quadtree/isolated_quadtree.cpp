@@ -13,43 +13,23 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "algorithms/isolated_quadtree/frustum.h"
 #include "algorithms/isolated_quadtree/tile_grid.h"
 
 namespace plumbline {
 namespace {
 
+using isolated_quadtree::Frustum;
 using isolated_quadtree::Node;
 using isolated_quadtree::Settings;
 using isolated_quadtree::TileGrid;
 
-/// Whether the box lies wholly on the outer side of one plane of the frustum.
-bool outside_frustum(const Camera& camera, Vec3 low, Vec3 high) {
-  const double tan_x = camera.width_px * 0.5 / camera.kappa_px;
-  const double tan_y = camera.height_px * 0.5 / camera.kappa_px;
-  std::array<int, 5> outside{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 v =
-        Vec3{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z} -
-        camera.position;
-    const double depth = dot(v, camera.forward);
-    const double x = dot(v, camera.right());
-    const double y = dot(v, camera.up);
-    outside[0] += x > depth * tan_x ? 1 : 0;
-    outside[1] += -x > depth * tan_x ? 1 : 0;
-    outside[2] += y > depth * tan_y ? 1 : 0;
-    outside[3] += -y > depth * tan_y ? 1 : 0;
-    outside[4] += depth <= 0 ? 1 : 0;
-  }
-  return std::find(outside.begin(), outside.end(), 8) != outside.end();
-}
-
-constexpr std::uint32_t kNoVertex = 0xffffffffu;
+constexpr std::uint32_t kNone = 0xffffffffu;
 
 class IsolatedQuadtree final : public LodMethod {
  public:
@@ -68,18 +48,19 @@ class IsolatedQuadtree final : public LodMethod {
     frame.counters.nodes = grid_->node_count();
     if (vertex_.empty()) {
       across_ = static_cast<std::size_t>(grid_->tile_side() + 1);
-      vertex_.assign(across_ * across_, kNoVertex);
-      mark_.assign(across_ * across_, 0);
-      south_.resize(across_ * grid_->tile_count());
-      east_.resize(south_.size());
+      vertex_.assign(across_ * across_, kNone);
     }
     camera_ = &camera;
     frame_ = &frame;
-    visible_.assign(grid_->tile_count(), 0);
-    if (settings_.split_both_sides) announce_borders();
-    for (int b = grid_->tiles_y() - 1; b >= 0; --b) {
-      for (int a = 0; a < grid_->tiles_x(); ++a) draw_tile(a, b);
+    divide_tiles_in_sight();
+    announced_.clear();
+    if (settings_.split_both_sides) {
+      for (TileInSight& tile : tiles_) announce(tile);
     }
+    borders_.clear();
+    for (TileInSight& tile : tiles_) draw(tile);
+    frame.counters.tiles = tiles_.size();
+    frame.counters.drawn = nodes_.size();
     camera_ = nullptr;
     frame_ = nullptr;
   }
@@ -94,98 +75,57 @@ class IsolatedQuadtree final : public LodMethod {
   }
 
  private:
-  struct Rectangle {
-    Vec2 low, high;
+  /// A part of one of the frame's lists.
+  struct Span {
+    std::size_t begin = 0, end = 0;
   };
-  /// Where a tile has data, in plan.
-  [[nodiscard]] Rectangle ground(int a, int b) const {
+  struct TileInSight {
+    int a = 0, b = 0;
+    Span nodes;        ///< of nodes_: what division left to draw
+    Span north, west;  ///< of announced_
+    Span south, east;  ///< of borders_
+  };
+  /// The k-th sample of a tile's border from its south or west end, and its vertex.
+  struct BorderVertex {
+    int k = 0;
+    std::uint32_t vertex = kNone;
+  };
+  /// A line of samples on the tile in hand: from (i, j) along (di, dj).
+  struct Line {
+    int i = 0, j = 0, di = 0, dj = 0;
+  };
+
+  /// Isolated division (§1.2), tile by tile from the north-west, row by row.
+  void divide_tiles_in_sight() {
     const Terrain& terrain = grid_->terrain();
-    const Node tile = grid_->tile(a, b);
-    return {{tile.i * terrain.spacing_m, std::max(tile.j, 0) * terrain.spacing_m},
-            {std::min(tile.i + tile.side, terrain.columns - 1) * terrain.spacing_m,
-             (tile.j + tile.side) * terrain.spacing_m}};
-  }
-  [[nodiscard]] bool in_sight(int a, int b) const {
-    const Rectangle plan = ground(a, b);
-    return !outside_frustum(*camera_, {plan.low.x, plan.low.y, grid_->lowest_m(a, b)},
-                            {plan.high.x, plan.high.y, grid_->highest_m(a, b)});
-  }
-
-  void draw_tile(int a, int b) {
-    if (!in_sight(a, b)) return;
-    tile_ = grid_->tile(a, b);
-    ++frame_->counters.tiles;
-    const Rectangle plan = ground(a, b);
-    frame_->domain.add_rectangle(plan.low, plan.high);
-
-    drawn_.clear();
-    divide(tile_);
-    if (settings_.split_both_sides) take_announced(a, b);
-    adapt_to_neighbours(a, b);
-    for (const Node& node : drawn_) draw(node);
-    frame_->counters.drawn += drawn_.size();
-
-    // What the lower and the right neighbour will adapt to.
-    const std::size_t mine = grid_->tile_index(a, b);
-    visible_[mine] = 1;
-    for (int k = 0; k <= tile_.side; ++k) {
-      south_[mine * across_ + static_cast<std::size_t>(k)] = vertex_[slot(tile_.i + k, tile_.j)];
-      east_[mine * across_ + static_cast<std::size_t>(k)] = vertex_[slot(tile_.i + tile_.side, tile_.j + k)];
-    }
-    clear_marks();
-  }
-
-  void clear_marks() {
-    for (const std::size_t used : marked_) {
-      mark_[used] = 0;
-      vertex_[used] = kNoVertex;
-    }
-    marked_.clear();
-  }
-
-  /// `repaired`: divides every tile beforehand, and keeps what it will draw on its north and west border for
-  /// the neighbours that come first. They take it as split points; so each side has all vertices of both,
-  /// and nothing is left to average.
-  void announce_borders() {
-    const Counters before = frame_->counters;
-    north_marks_.assign(across_ * grid_->tile_count(), 0);
-    west_marks_.assign(across_ * grid_->tile_count(), 0);
-    for (int b = 0; b < grid_->tiles_y(); ++b) {
+    const Frustum frustum(*camera_);
+    tiles_.clear();
+    nodes_.clear();
+    place_.assign(grid_->tile_count(), kNone);
+    for (int b = grid_->tiles_y() - 1; b >= 0; --b) {
       for (int a = 0; a < grid_->tiles_x(); ++a) {
-        if (!in_sight(a, b)) continue;
-        tile_ = grid_->tile(a, b);
-        drawn_.clear();
-        divide(tile_);
-        const std::size_t mine = grid_->tile_index(a, b) * across_;
-        for (int k = 0; k <= tile_.side; ++k) {
-          north_marks_[mine + static_cast<std::size_t>(k)] = mark_[slot(tile_.i + k, tile_.j + tile_.side)];
-          west_marks_[mine + static_cast<std::size_t>(k)] = mark_[slot(tile_.i, tile_.j + k)];
-        }
-        clear_marks();
-      }
-    }
-    frame_->counters = before;  // the second division counts
-  }
-
-  void take_announced(int a, int b) {
-    for (int k = 0; k <= tile_.side; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (b > 0 && north_marks_[grid_->tile_index(a, b - 1) * across_ + at] != 0) {
-        set_mark(tile_.i + k, tile_.j);
-      }
-      if (a + 1 < grid_->tiles_x() && west_marks_[grid_->tile_index(a + 1, b) * across_ + at] != 0) {
-        set_mark(tile_.i + tile_.side, tile_.j + k);
+        const Node square = grid_->tile(a, b);
+        const Vec2 low{square.i * terrain.spacing_m, std::max(square.j, 0) * terrain.spacing_m};
+        const Vec2 high{std::min(square.i + square.side, terrain.columns - 1) * terrain.spacing_m,
+                        (square.j + square.side) * terrain.spacing_m};
+        if (frustum.excludes({low.x, low.y, grid_->lowest_m(a, b)}, {high.x, high.y, grid_->highest_m(a, b)}))
+          continue;
+        frame_->domain.add_rectangle(low, high);
+        place_[grid_->tile_index(a, b)] = static_cast<std::uint32_t>(tiles_.size());
+        TileInSight tile{.a = a, .b = b, .nodes = {}, .north = {}, .west = {}, .south = {}, .east = {}};
+        tile.nodes.begin = nodes_.size();
+        divide(square);
+        tile.nodes.end = nodes_.size();
+        tiles_.push_back(tile);
       }
     }
   }
 
-  /// Isolated division (§2.3): each node decides alone. A node with no-data always splits; no-data is never
-  /// drawn.
+  /// Each node decides alone. A node with no-data always splits; no-data is never drawn.
   void divide(Node node) {
     if (!grid_->holds_ground(node)) return;
     ++frame_->counters.visited;
-    const bool whole = grid_->whole(node);
-    if (node.side > 2 && (!whole || splits(node))) {
+    if (node.side > 2 && (!grid_->whole(node) || splits(node))) {
       ++frame_->counters.split;
       const int h = node.half();
       divide({node.i, node.j + h, h});
@@ -194,19 +134,11 @@ class IsolatedQuadtree final : public LodMethod {
       divide({node.i + h, node.j, h});
       return;
     }
-    const int h = node.half();
-    drawn_.push_back(node);
-    for (int dj = 0; dj <= 2; ++dj) {
-      for (int di = 0; di <= 2; ++di) {
-        const int i = node.i + di * h;
-        const int j = node.j + dj * h;
-        if (whole || grid_->has_data(i, j)) set_mark(i, j);
-      }
-    }
+    nodes_.push_back(node);
   }
 
-  /// e_s = κ·e_n·cos β / d > τ (§2.2), multiplied out: no root, no division. With cos β = way·f̂ / d the test
-  /// is κ·e_n·(way·f̂) > τ·d².
+  /// e_s = κ·e_n·cos β / d > τ (§1.3.2), multiplied out: no root, no division. With cos β = way·f̂ / d the
+  /// test is κ·e_n·(way·f̂) > τ·d².
   [[nodiscard]] bool splits(Node node) const {
     ++frame_->counters.evaluated;
     const TileGrid::Record& record = grid_->record(node);
@@ -224,141 +156,208 @@ class IsolatedQuadtree final : public LodMethod {
     return depth_m > 0 && scaled_error * depth_m > threshold_px() * squared_m2;
   }
 
-  /// Towards the upper and the left tile (§2.4): what only they draw becomes our split point; what only we
-  /// draw takes the height interpolated on their edge. Heights are adapted for this frame alone.
-  void adapt_to_neighbours(int a, int b) {
-    north_m_.assign(across_, kAsStored);
-    west_m_.assign(across_, kAsStored);
-    const auto at_north = [this](int k) { return std::array{tile_.i + k, tile_.j + tile_.side}; };
-    const auto at_west = [this](int k) { return std::array{tile_.i, tile_.j + k}; };
-    // Diagonal neighbours share a corner, which everybody draws at its stored height.
-    if (const std::uint32_t* south = drawn_by(south_, a - 1, b + 1))
-      share(tile_.i, tile_.j + tile_.side, south[tile_.side]);
-    if (const std::uint32_t* south = drawn_by(south_, a + 1, b + 1)) {
-      share(tile_.i + tile_.side, tile_.j + tile_.side, south[0]);
-    }
-    if (const std::uint32_t* south = drawn_by(south_, a, b + 1)) adapt(south, north_m_, at_north);
-    if (const std::uint32_t* east = drawn_by(east_, a - 1, b)) adapt(east, west_m_, at_west);
-  }
-
-  /// The border of a neighbour that is drawn in this frame already; null if there is none.
-  [[nodiscard]] const std::uint32_t* drawn_by(const std::vector<std::uint32_t>& borders, int a, int b) const {
-    if (a < 0 || a >= grid_->tiles_x() || b >= grid_->tiles_y()) return nullptr;
-    const std::size_t tile = grid_->tile_index(a, b);
-    return visible_[tile] != 0 ? borders.data() + tile * across_ : nullptr;
-  }
-
-  /// Takes over a neighbour's vertex.
-  void share(int i, int j, std::uint32_t vertex) {
-    if (vertex == kNoVertex) return;
-    set_mark(i, j);
-    vertex_[slot(i, j)] = vertex;
-  }
-
-  template <class At>
-  void adapt(const std::uint32_t* theirs, std::vector<double>& adapted_m, At at) {
-    const Terrain& terrain = grid_->terrain();
-    int before = -1;
-    for (int k = 0; k <= tile_.side; ++k) {
-      if (theirs[k] == kNoVertex) continue;
-      const auto [i1, j1] = at(k);
-      for (int between = before + 1; before >= 0 && between < k; ++between) {
-        const auto [i, j] = at(between);
-        if (mark_[slot(i, j)] == 0) continue;
-        const auto [i0, j0] = at(before);
-        const double z0 = terrain.z(i0, j0);
-        const double z1 = terrain.z(i1, j1);
-        adapted_m[static_cast<std::size_t>(between)] = z0 + (z1 - z0) * (between - before) / (k - before);
+  /// `repaired`: what a tile will draw on its north and west border, for the neighbours that are drawn before
+  /// it. They take it as split points; so each side has all vertices of both, and nothing is left to average.
+  void announce(TileInSight& tile) {
+    const Node square = grid_->tile(tile.a, tile.b);
+    const auto list = [&](bool north) {
+      const Span span{announced_.size(), 0};
+      for (std::size_t n = tile.nodes.begin; n < tile.nodes.end; ++n) {
+        const Node& node = nodes_[n];
+        if (north ? node.j + node.side != square.j + square.side : node.i != square.i) continue;
+        for (int s = 0; s <= node.side; s += node.half()) {
+          const int i = north ? node.i + s : node.i;
+          const int j = north ? node.j + node.side : node.j + s;
+          if (grid_->has_data(i, j)) announced_.push_back(north ? i - square.i : j - square.j);
+        }
       }
-      share(i1, j1, theirs[k]);
-      before = k;
+      return Span{span.begin, announced_.size()};
+    };
+    tile.north = list(true);
+    tile.west = list(false);
+  }
+
+  void draw(TileInSight& tile) {
+    tile_ = grid_->tile(tile.a, tile.b);
+    const Line north{tile_.i, tile_.j + tile_.side, 1, 0}, south{tile_.i, tile_.j, 1, 0};
+    const Line west{tile_.i, tile_.j, 0, 1}, east{tile_.i + tile_.side, tile_.j, 0, 1};
+
+    // Vertices of the neighbours that are drawn already: the corners, which all draw, and whole borders.
+    const TileInSight* upper = seen(tile.a, tile.b + 1);
+    const TileInSight* left = seen(tile.a - 1, tile.b);
+    if (const TileInSight* t = seen(tile.a - 1, tile.b + 1)) share(north, 0, borders_[t->south.end - 1]);
+    if (const TileInSight* t = seen(tile.a + 1, tile.b + 1)) {
+      share(north, tile_.side, borders_[t->south.begin]);
     }
+    if (upper != nullptr) share(north, upper->south);
+    if (left != nullptr) share(west, left->east);
+
+    for (std::size_t n = tile.nodes.begin; n < tile.nodes.end; ++n) use(nodes_[n]);
+    if (const TileInSight* lower = seen(tile.a, tile.b - 1)) use(south, lower->north);
+    if (const TileInSight* right = seen(tile.a + 1, tile.b)) use(east, right->west);
+    if (upper != nullptr) average(north, upper->south);
+    if (left != nullptr) average(west, left->east);
+
+    for (std::size_t n = tile.nodes.begin; n < tile.nodes.end; ++n) draw(nodes_[n]);
+
+    tile.south = list_border(south, borders_);
+    tile.east = list_border(east, borders_);
+    for (const std::size_t slot : used_) vertex_[slot] = kNone;
+    used_.clear();
+  }
+
+  /// A tile of this frame; null if it is out of sight or does not exist.
+  [[nodiscard]] const TileInSight* seen(int a, int b) const {
+    if (a < 0 || a >= grid_->tiles_x() || b < 0 || b >= grid_->tiles_y()) return nullptr;
+    const std::uint32_t place = place_[grid_->tile_index(a, b)];
+    return place == kNone ? nullptr : &tiles_[place];
+  }
+
+  /// VN becomes ours too, as vertices where we draw them and as split points where we do not (§1.4).
+  void share(Line border, Span theirs) {
+    for (std::size_t n = theirs.begin; n < theirs.end; ++n) share(border, borders_[n].k, borders_[n]);
+  }
+  void share(Line border, int k, BorderVertex theirs) {
+    const std::size_t here = slot(border.i + k * border.di, border.j + k * border.dj);
+    if (vertex_[here] == kNone) used_.push_back(here);
+    vertex_[here] = theirs.vertex;
+  }
+
+  /// Makes a vertex of a sample, if it is none yet.
+  void use(int i, int j) {
+    const std::size_t here = slot(i, j);
+    if (vertex_[here] != kNone) return;
+    const Terrain& terrain = grid_->terrain();
+    vertex_[here] = static_cast<std::uint32_t>(frame_->mesh.positions.size());
+    used_.push_back(here);
+    frame_->mesh.positions.push_back(terrain.point(i, j));
+    frame_->vertex_keys.push_back(terrain.index(i, j));
+  }
+  void use(Node node) {
+    const int h = node.half();
+    const bool whole = grid_->whole(node);
+    for (int dj = 0; dj <= 2; ++dj) {
+      for (int di = 0; di <= 2; ++di) {
+        const int i = node.i + di * h;
+        const int j = node.j + dj * h;
+        if (whole || grid_->has_data(i, j)) use(i, j);
+      }
+    }
+  }
+  void use(Line border, Span announced) {
+    for (std::size_t n = announced.begin; n < announced.end; ++n) {
+      use(border.i + announced_[n] * border.di, border.j + announced_[n] * border.dj);
+    }
+  }
+
+  /// Height averaging (§1.4): each of VC∖VN takes the height interpolated between the nearest VN on either
+  /// side, in this frame only. `theirs` is in order along the border.
+  void average(Line border, Span theirs) {
+    const Terrain& terrain = grid_->terrain();
+    const auto stored_m = [&](int k) {
+      return terrain.z(border.i + k * border.di, border.j + k * border.dj);
+    };
+    ours_.clear();
+    list_border(border, ours_);
+    std::size_t next = theirs.begin;
+    for (const BorderVertex& mine : ours_) {
+      while (next < theirs.end && borders_[next].k < mine.k) ++next;
+      if (next == theirs.begin || next == theirs.end || borders_[next].k == mine.k) continue;
+      const int before = borders_[next - 1].k, after = borders_[next].k;
+      const double z0 = stored_m(before), z1 = stored_m(after);
+      frame_->mesh.positions[mine.vertex].z = z0 + (z1 - z0) * (mine.k - before) / (after - before);
+    }
+  }
+
+  /// Appends the vertices on a border of the tile in hand, in order.
+  Span list_border(Line border, std::vector<BorderVertex>& out) const {
+    const std::size_t begin = out.size();
+    const auto append = [&](int k) {
+      const std::uint32_t vertex = vertex_[slot(border.i + k * border.di, border.j + k * border.dj)];
+      if (vertex != kNone) out.push_back({k, vertex});
+    };
+    append(0);
+    list_between(border, 0, tile_.side, append);
+    append(tile_.side);
+    return {begin, out.size()};
+  }
+  /// Vertices are dyadic: where a stretch's middle is none, nothing finer in it is, unless it is no-data.
+  template <class Append>
+  void list_between(Line border, int from, int to, const Append& append) const {
+    if (to - from < 2) return;
+    const auto has_data = [&](int k) {
+      return grid_->has_data(border.i + k * border.di, border.j + k * border.dj);
+    };
+    if (!has_data(from) && !has_data(to)) return;  // no-data is all beyond one of the ends
+    const int middle = (from + to) / 2;
+    const bool vertex = vertex_[slot(border.i + middle * border.di, border.j + middle * border.dj)] != kNone;
+    if (!vertex && has_data(middle)) return;
+    list_between(border, from, middle, append);
+    append(middle);
+    list_between(border, middle, to, append);
   }
 
   /// The fan around the node's centre: its eight rim samples and every split point between them, once around
   /// from the south-west corner.
   void draw(Node node) {
     const int h = node.half();
-    center_ = vertex(node.i + h, node.j + h);
-    static constexpr std::array<std::array<int, 2>, 9> kRim{
-        {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {0, 0}}};
+    const auto step = static_cast<std::ptrdiff_t>(across_);
+    const auto first = static_cast<std::ptrdiff_t>(slot(node.i, node.j));
+    center_ = vertex_[static_cast<std::size_t>(first + h * (1 + step))];
+    const std::array<std::ptrdiff_t, 8> strides{1, 1, step, step, -1, -1, -step, -step};
+    std::ptrdiff_t at = first;
+    last_ = vertex_[static_cast<std::size_t>(at)];
     if (grid_->whole(node)) {
-      const std::uint32_t first = vertex(node.i, node.j);
-      last_ = first;
-      for (std::size_t k = 0; k < 8; ++k) {
-        draw_edge(node.i + kRim[k][0] * h, node.j + kRim[k][1] * h, kRim[k + 1][0] - kRim[k][0],
-                  kRim[k + 1][1] - kRim[k][1], h);
+      for (const std::ptrdiff_t stride : strides) {
+        draw_edge(at, stride, h);
+        at += h * stride;
       }
       return;
     }
-    for (std::size_t k = 0; k < 8; ++k) {  // a smallest node over the border: only what has data
-      const int i0 = node.i + kRim[k][0];
-      const int j0 = node.j + kRim[k][1];
-      const int i1 = node.i + kRim[k + 1][0];
-      const int j1 = node.j + kRim[k + 1][1];
-      if (!grid_->has_data(i0, j0) || !grid_->has_data(i1, j1)) continue;
-      last_ = vertex(i0, j0);
-      draw_edge(i0, j0, i1 - i0, j1 - j0, 1);
+    for (const std::ptrdiff_t stride : strides) {  // a smallest node over the border: only what has data
+      const std::uint32_t next = vertex_[static_cast<std::size_t>(at + stride)];
+      if (last_ != kNone && next != kNone) frame_->mesh.triangles.push_back({center_, last_, next});
+      last_ = next;
+      at += stride;
     }
   }
 
-  /// From (i, j), where `last_` stands, `steps` samples on in direction (di, dj). Split points are dyadic:
-  /// where an edge's midpoint is not drawn, nothing finer on it is.
-  void draw_edge(int i, int j, int di, int dj, int steps) {
+  /// From slot `at`, where `last_` stands, `steps` strides on. Split points are dyadic: where an edge's
+  /// middle is no vertex, nothing finer on it is.
+  void draw_edge(std::ptrdiff_t at, std::ptrdiff_t stride, int steps) {
     const int half = steps / 2;
-    if (half > 0 && mark_[slot(i + half * di, j + half * dj)] != 0) {
-      draw_edge(i, j, di, dj, half);
-      draw_edge(i + half * di, j + half * dj, di, dj, half);
+    if (half > 0 && vertex_[static_cast<std::size_t>(at + half * stride)] != kNone) {
+      draw_edge(at, stride, half);
+      draw_edge(at + half * stride, stride, half);
       return;
     }
-    const std::uint32_t next = vertex(i + steps * di, j + steps * dj);
+    const std::uint32_t next = vertex_[static_cast<std::size_t>(at + steps * stride)];
     frame_->mesh.triangles.push_back({center_, last_, next});
     last_ = next;
   }
 
-  std::uint32_t vertex(int i, int j) {
-    std::uint32_t& number = vertex_[slot(i, j)];
-    if (number == kNoVertex) {
-      number = static_cast<std::uint32_t>(frame_->mesh.positions.size());
-      Vec3 p = grid_->terrain().point(i, j);
-      double adapted_m = kAsStored;
-      if (j == tile_.j + tile_.side) adapted_m = north_m_[static_cast<std::size_t>(i - tile_.i)];
-      if (i == tile_.i && adapted_m == kAsStored) adapted_m = west_m_[static_cast<std::size_t>(j - tile_.j)];
-      if (adapted_m != kAsStored) p.z = adapted_m;
-      frame_->mesh.positions.push_back(p);
-      frame_->vertex_keys.push_back(grid_->terrain().index(i, j));
-    }
-    return number;
-  }
-
-  /// Where a sample of the tile in hand stands in the tile's arrays.
+  /// Where a sample of the tile in hand stands in vertex_.
   [[nodiscard]] std::size_t slot(int i, int j) const {
     return static_cast<std::size_t>(j - tile_.j) * across_ + static_cast<std::size_t>(i - tile_.i);
   }
-  void set_mark(int i, int j) {
-    const std::size_t here = slot(i, j);
-    if (mark_[here] == 0) marked_.push_back(here);
-    mark_[here] = 1;
-  }
-
-  static constexpr double kAsStored = std::numeric_limits<double>::infinity();
 
   Settings settings_;
   std::shared_ptr<const TileGrid> grid_;
-  std::size_t across_ = 0;                              ///< samples along a tile's border
-  std::vector<std::uint32_t> south_, east_;             ///< by tile: its border's vertices, or kNoVertex
-  std::vector<std::uint8_t> visible_;                   ///< by tile
-  std::vector<std::uint8_t> north_marks_, west_marks_;  ///< `repaired`, by tile: what its border will draw
-  // Of the tile in hand:
-  Node tile_;
-  std::vector<Node> drawn_;
-  std::vector<std::uint8_t> mark_;     ///< samples that are drawn
-  std::vector<std::uint32_t> vertex_;  ///< their vertices, once they have one
-  std::vector<std::size_t> marked_;
-  std::uint32_t center_ = 0, last_ = 0;   ///< vertices of the fan in hand
-  std::vector<double> north_m_, west_m_;  ///< adapted heights along the border, or kAsStored
+  std::size_t across_ = 0;  ///< samples along a tile's border
+  // Of the frame in hand:
+  std::vector<TileInSight> tiles_;     ///< in the order of drawing
+  std::vector<std::uint32_t> place_;   ///< by tile: its place in tiles_, or kNone
+  std::vector<Node> nodes_;            ///< to draw, tile by tile
+  std::vector<int> announced_;         ///< `repaired`: samples on north and west borders
+  std::vector<BorderVertex> borders_;  ///< on south and east borders, in order along each
   const Camera* camera_ = nullptr;
   LodFrame* frame_ = nullptr;
+  // Of the tile in hand:
+  Node tile_;
+  std::vector<std::uint32_t> vertex_;  ///< by sample of the tile: its vertex, or kNone
+  std::vector<std::size_t> used_;      ///< slots of vertex_ that are not kNone
+  std::vector<BorderVertex> ours_;
+  std::uint32_t center_ = 0, last_ = 0;  ///< vertices of the fan in hand
 };
 
 }  // namespace
