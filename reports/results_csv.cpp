@@ -28,9 +28,11 @@ std::string csv_number(double value) { return std::isfinite(value) ? number_text
 bool was_judged(std::string_view figure, const verdict::FrameVerdict& frame) {
   if (figure == "displacement_px.uncovered_px") return true;
   if (figure.starts_with("displacement_px.")) return frame.image.displacement_px.count > 0;
+  if (figure.starts_with("parallax_px.")) return frame.image.parallax_px.count > 0;
   if (figure.starts_with("depth_rel.")) return frame.image.depth_rel.count > 0;
   if (figure.starts_with("pop_px.")) return frame.pop_px.count > 0;
   if (figure.starts_with("vertical_m.")) return frame.vertical_m.area_m2 > 0;
+  if (figure == "stability.revisit_share") return frame.stability.revisit;
   return true;
 }
 
@@ -47,8 +49,9 @@ void add_frame(std::string& out, const verdict::RunVerdict& run, const verdict::
     if (was_judged(figure.path, frame)) out += csv_number(figure.value(alone));
   }
   const verdict::CounterFigures& counters = frame.counters;
-  for (const std::uint64_t counter : {counters.visited, counters.evaluated, counters.split, counters.merged,
-                                      counters.entered, counters.left})
+  for (const std::uint64_t counter :
+       {counters.visited, counters.evaluated, counters.split, counters.merged, counters.entered,
+        counters.left, counters.nodes, counters.drawn, counters.tiles})
     out += ',' + std::to_string(counter);
   out += "\r\n";
 }
@@ -59,7 +62,7 @@ std::string results_csv(const verdict::SuiteVerdict& verdict) {
   std::string out =
       "run,terrain,trajectory,method,threshold_px,frame,position_x_m,position_y_m,position_z_m,vertices";
   for (const verdict::Figure& figure : verdict::figures()) out += ',' + std::string(figure.path);
-  out += ",visited,evaluated,split,merged,entered,left\r\n";
+  out += ",visited,evaluated,split,merged,entered,left,nodes,drawn,tiles\r\n";
   for (const verdict::RunVerdict& run : verdict.runs)
     for (const verdict::FrameVerdict& frame : run.frames) add_frame(out, run, frame);
   return out;

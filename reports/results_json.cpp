@@ -50,6 +50,33 @@ Json vertical_json(const oracle::VerticalError& error) {
           {"area_m2", error.area_m2}};
 }
 
+Json stability_json(const verdict::StabilityFigures& frame) {
+  return {{"cut", frame.cut},
+          {"under_threshold", frame.under_threshold},
+          {"settled", frame.settled},
+          {"toggles", frame.toggles},
+          {"jitter_vertices", frame.jitter_vertices},
+          {"jitter_px", frame.jitter_px},
+          {"path_share", frame.path_share},
+          {"path_px", frame.path_px},
+          {"revisit_share", judged(frame.revisit, frame.revisit_share)}};
+}
+
+Json stability_json(const verdict::StabilitySummary& run) {
+  return {{"cuts", run.cuts},
+          {"recovery_frames", judged(run.cuts > 0, run.recovery_frames)},
+          {"unrecovered", judged(run.cuts > 0, static_cast<double>(run.unrecovered))},
+          {"lag_frames", judged(run.cuts > 0, run.lag_frames)},
+          {"unsettled", judged(run.cuts > 0, static_cast<double>(run.unsettled))},
+          {"toggles", run.toggles},
+          {"jitter_vertices", run.jitter_vertices},
+          {"jitter_px", run.jitter_px},
+          {"path_share", run.path_share},
+          {"path_px", run.path_px},
+          {"revisits", run.revisits},
+          {"revisit_share", judged(run.revisits > 0, run.revisit_share)}};
+}
+
 /// What a frame and a trajectory have in common, in CONTRACT's order.
 template <class Judged>
 void add_figures(Json& out, const Judged& frame) {
@@ -69,6 +96,13 @@ void add_figures(Json& out, const Judged& frame) {
                             {"over_threshold", judged(seen, frame.image.over_threshold)},
                             {"uncovered_px", frame.image.uncovered_px},
                             {"judged_px", displacement.count}};
+  const oracle::PixelFigure& parallax = frame.image.parallax_px;
+  out["parallax_px"] = {{"max", judged(parallax.count > 0, parallax.max)},
+                        {"p999", judged(parallax.count > 0, parallax.p999)},
+                        {"p99", judged(parallax.count > 0, parallax.p99)},
+                        {"rms", judged(parallax.count > 0, parallax.rms)},
+                        {"mean", judged(parallax.count > 0, parallax.mean)},
+                        {"judged_px", parallax.count}};
   out["depth_rel"] = {{"max", judged(depth.count > 0, depth.max)},
                       {"p99", judged(depth.count > 0, depth.p99)},
                       {"judged_px", depth.count}};
@@ -76,6 +110,7 @@ void add_figures(Json& out, const Judged& frame) {
   out["pop_px"] = {{"max", judged(frame.pop_px.count > 0, frame.pop_px.max)},
                    {"p99", judged(frame.pop_px.count > 0, frame.pop_px.p99)},
                    {"judged_px", frame.pop_px.count}};
+  out["stability"] = stability_json(frame.stability);
   out["shape"] = {{"slivers", frame.shape.slivers},
                   {"min_quality", frame.shape.min_quality},
                   {"mean_quality", frame.shape.mean_quality},
@@ -84,9 +119,10 @@ void add_figures(Json& out, const Judged& frame) {
                   {"mean_valence", frame.shape.mean_valence},
                   {"mean_fan_length", frame.shape.mean_fan_length}};
   const verdict::CounterFigures& counters = frame.counters;
-  out["counters"] = {{"visited", counters.visited}, {"evaluated", counters.evaluated},
-                     {"split", counters.split},     {"merged", counters.merged},
-                     {"entered", counters.entered}, {"left", counters.left}};
+  out["counters"] = {
+      {"visited", counters.visited}, {"evaluated", counters.evaluated}, {"split", counters.split},
+      {"merged", counters.merged},   {"entered", counters.entered},     {"left", counters.left},
+      {"nodes", counters.nodes},     {"drawn", counters.drawn},         {"tiles", counters.tiles}};
 }
 
 std::string_view severity_name(oracle::Severity severity) {

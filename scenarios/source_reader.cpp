@@ -135,7 +135,8 @@ std::vector<CameraPose> read_poses(const TomlValue& value) {
 }
 
 TrajectorySpec read_trajectory(const TomlTable& table) {
-  table.allow_only({"id", "kind", "frames", "height_m", "distance_m", "jitter_px", "seed", "poses"});
+  table.allow_only(
+      {"id", "kind", "frames", "height_m", "distance_m", "jitter_px", "hold_frames", "seed", "poses"});
   TrajectorySpec spec;
   spec.id = table.at("id").text();
   const TomlValue& kind = table.at("kind");
@@ -164,6 +165,9 @@ TrajectorySpec read_trajectory(const TomlTable& table) {
   if (const TomlValue* height = table.find("height_m")) spec.height_m = height->positive();
   if (const TomlValue* distance = table.find("distance_m")) spec.distance_m = distance->positive();
   if (const TomlValue* jitter = table.find("jitter_px")) spec.jitter_px = jitter->positive();
+  if (const TomlValue* hold = table.find("hold_frames")) {
+    spec.hold_frames = static_cast<int>(hold->integer_in(1, kMostFrames));
+  }
   spec.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, kLargestSeed, 1));
   return spec;
 }

@@ -49,6 +49,15 @@ Mesh reference_mesh(const Terrain& terrain) {
   return mesh;
 }
 
+Terrain cropped(const Terrain& terrain, int columns, int rows) {
+  Terrain out{terrain.id, columns, rows, terrain.spacing_m, {}};
+  out.heights_m.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) out.heights_m.push_back(terrain.z(i, j));
+  }
+  return out;
+}
+
 PlanDomain full_domain(const Terrain& terrain) {
   PlanDomain domain;
   domain.add_rectangle({0, 0}, {terrain.width_m(), terrain.depth_m()});

@@ -131,7 +131,7 @@ Poses fly_nadir(const Scene& scene) {
 
 // Cuts between far-away poses; each is held for some frames, so that what a method forgets or keeps shows.
 Poses fly_teleport(const Scene& scene) {
-  constexpr int kFramesHeld = 4;
+  const int held = scene.spec.hold_frames > 0 ? scene.spec.hold_frames : 4;
   Random random(scene.spec.seed, "teleport");
   const auto draw = [&] { return Vec2{random.unit() * scene.width_m, random.unit() * scene.depth_m}; };
   // A point at least `apart_m` from `other`; two far corners always are, so a last resort exists.
@@ -147,7 +147,7 @@ Poses fly_teleport(const Scene& scene) {
   Poses poses;
   Vec2 stand = draw();
   for (int f = 0; f < scene.spec.frames; ++f) {
-    if (f % kFramesHeld != 0) {
+    if (f % held != 0) {
       poses.push_back(CameraPose(poses.back()));
       continue;
     }
@@ -156,6 +156,33 @@ Poses fly_teleport(const Scene& scene) {
     const double height_m = random.between(0.02, 0.4) * scene.side_m;
     poses.push_back({scene.above_ground(stand.x, stand.y, height_m), scene.on_ground(seen.x, seen.y)});
   }
+  return poses;
+}
+
+// One pose reached from afar and above, held, left for a place near the ground, and reached again from there.
+Poses fly_two_ways(const Scene& scene) {
+  const int held = scene.spec.hold_frames > 0 ? scene.spec.hold_frames : 3;
+  const double way_m = scene.distance_or(0.5);
+  const Vec3 target = scene.middle();
+  const CameraPose pose{scene.above_ground(target.x - 0.07 * scene.side_m, target.y - 0.3 * scene.side_m,
+                                           scene.height_or(0.08)),
+                        target};
+  // Askew, so that no ray runs along a grid line.
+  const Vec3 afar = pose.position + Vec3{-0.3 * way_m, -0.9 * way_m, 0.6 * way_m};
+  const double near_y = pose.position.y + 0.2 * way_m;
+  const Vec3 near = scene.above_ground(pose.position.x + 0.06 * way_m, near_y, 0.5 * scene.height_or(0.08));
+  const auto on_way = [&](Vec3 from, double t) {
+    Vec3 p = from + (pose.position - from) * t;
+    p.z = std::max(p.z, scene.ground_m(p.x, p.y) + 0.25 * scene.height_or(0.08));
+    return CameraPose{p, target};
+  };
+  const int steps = std::max(1, (scene.spec.frames - 2 * held) / 3);
+  Poses poses;
+  for (int k = 0; k < steps; ++k) poses.push_back(on_way(afar, static_cast<double>(k) / steps));
+  poses.insert(poses.end(), static_cast<std::size_t>(held), pose);
+  for (int k = 1; k <= steps; ++k) poses.push_back(on_way(near, 1 - static_cast<double>(k) / steps));
+  for (int k = 1; k < steps; ++k) poses.push_back(on_way(near, static_cast<double>(k) / steps));
+  poses.resize(static_cast<std::size_t>(scene.spec.frames), pose);  // the rest holds the pose again
   return poses;
 }
 
@@ -219,8 +246,14 @@ const std::vector<Flight>& flights() {
        fly_skim},
       {{"spin", "a full turn on the spot above the middle", {"frames", "height_m"}}, fly_spin},
       {{"nadir", "across the terrain, looking straight down", {"frames", "height_m"}}, fly_nadir},
-      {{"teleport", "cuts to seeded far-away poses, each held for four frames", {"frames", "seed"}},
+      {{"teleport",
+        "cuts to seeded far-away poses, each held for some frames",
+        {"frames", "hold_frames", "seed"}},
        fly_teleport},
+      {{"two_ways",
+        "one pose reached from afar, held, and reached again from near",
+        {"frames", "height_m", "distance_m", "hold_frames"}},
+       fly_two_ways},
       {{"hover", "trembles by less than a pixel", {"frames", "height_m", "jitter_px", "seed"}}, fly_hover},
       {{"poses", "the poses given, one a frame", {"poses"}}, given_poses},
   };
@@ -237,6 +270,7 @@ void check(const TrajectorySpec& spec, bool poses) {
   check_length(spec.height_m, "height_m");
   check_length(spec.distance_m, "distance_m");
   check_length(spec.jitter_px, "jitter_px");
+  if (spec.hold_frames < 0) refuse(fmt::format("hold_frames is {}; give 1 or more", spec.hold_frames));
   const auto count = poses ? static_cast<std::int64_t>(spec.poses.size()) : spec.frames;
   if (count < 1 || count > kMostFrames) {
     refuse(fmt::format("{} {}; give 1 to {}", count, poses ? "poses" : "frames", kMostFrames));

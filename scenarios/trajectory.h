@@ -22,14 +22,16 @@ inline constexpr int kMostFrames = 100'000;
 /// trajectory_kinds().
 struct TrajectorySpec {
   std::string id;
-  std::string kind;  ///< approach, retreat, orbit, skim, spin, nadir, teleport, hover, poses
+  std::string kind;  ///< approach, retreat, orbit, skim, spin, nadir, teleport, two_ways, hover, poses
   int frames = 0;    ///< absent for `poses`: one frame a pose
-  /// approach, retreat: above the ground at the near end (0.02 L); skim (0.005 L), spin (0.06 L), hover
-  /// (0.08 L): above the ground below; orbit: above the highest ground on the way (0.2 L); nadir: above the
-  /// highest sample (0.4 L). Defaults are never below four sample spacings.
+  /// approach, retreat: above the ground at the near end (0.02 L); two_ways: at the pose held (0.08 L); skim
+  /// (0.005 L), spin (0.06 L), hover (0.08 L): above the ground below; orbit: above the highest ground on the
+  /// way (0.2 L); nadir: above the highest sample (0.4 L). Defaults are never below four sample spacings.
   double height_m = 0;
-  double distance_m = 0;   ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L)
+  double distance_m = 0;   ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L); two_ways:
+                           ///< length of each way (0.5 L)
   double jitter_px = 0;    ///< hover: amplitude of the motion, as it shows in the picture's middle (0.5 px)
+  int hold_frames = 0;     ///< teleport, two_ways: frames that a pose is held (4; 3)
   std::uint64_t seed = 1;  ///< teleport, hover
   std::vector<CameraPose> poses;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <utility>
 
 #include "oracle/conformity.h"
@@ -30,15 +31,19 @@ bool same_surface(const LodFrame& a, const LodFrame& b) {
          a.domain.loops == b.domain.loops;
 }
 
-/// How many of `a` are not in `b`; both sorted.
-std::uint64_t missing_from(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
-  std::uint64_t count = 0;
-  auto other = b.begin();
-  for (const std::uint64_t key : a) {
-    while (other != b.end() && *other < key) ++other;
-    if (other == b.end() || *other != key) ++count;
-  }
-  return count;
+using Keys = std::vector<std::uint64_t>;
+
+Keys sorted_keys(const LodFrame& frame) {
+  Keys keys = frame.vertex_keys;
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+/// Those of `a` that are not in `b`; both sorted.
+Keys missing_from(const Keys& a, const Keys& b) {
+  Keys out;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+  return out;
 }
 
 /// A T-vertex is a crack too unless its gap is exactly zero, which makes it a hazard only.
@@ -79,7 +84,12 @@ Flight::Flight(std::unique_ptr<LodMethod> method, const TerrainStage& stage, con
       stage_(stage),
       device_(device),
       now_(std::make_unique<LodFrame>()),
-      before_(std::make_unique<LodFrame>()) {}
+      before_(std::make_unique<LodFrame>()),
+      probe_(method_->clone()),
+      fresh_(std::make_unique<LodFrame>()),
+      shaken_(std::make_unique<LodFrame>()) {
+  probe_->set_threshold_px(method_->threshold_px());
+}
 
 Flight::~Flight() = default;
 
@@ -90,7 +100,8 @@ void Flight::judge_mesh(Judged& judged) const {
   judged.surface = std::make_unique<oracle::RaySurface>(device_, now_->mesh);
 }
 
-verdict::FrameVerdict Flight::next(int index, const Camera& camera, const oracle::PixelHits& reference_hits) {
+verdict::FrameVerdict Flight::next(const FrameScene& scene) {
+  const Camera& camera = scene.camera;
   const bool first = judged_now_ == nullptr;
   // The surface of the frame before refers to that frame's mesh, so meshes and judgements change places
   // together.
@@ -112,13 +123,12 @@ verdict::FrameVerdict Flight::next(int index, const Camera& camera, const oracle
   } else {
     judged_now_ = std::make_unique<Judged>();
     judge_mesh(*judged_now_);
-    keys_now_ = now_->vertex_keys;
-    std::sort(keys_now_.begin(), keys_now_.end());
+    keys_now_ = sorted_keys(*now_);
   }
 
   const Judged& judged = *judged_now_;
   verdict::FrameVerdict out;
-  out.index = index;
+  out.index = scene.index;
   out.camera = camera;
   out.triangles = now_->mesh.triangles.size();
   out.vertices = now_->mesh.positions.size();
@@ -128,7 +138,7 @@ verdict::FrameVerdict Flight::next(int index, const Camera& camera, const oracle
   out.largest_gap_m = judged.conformity.largest_gap_m;
 
   const oracle::PixelHits hits = judged.surface->look(camera);
-  out.image = oracle::image_error(camera, *stage_.surface, reference_hits, *judged.surface, hits,
+  out.image = oracle::image_error(camera, *stage_.surface, *scene.reference_hits, *judged.surface, hits,
                                   method_->threshold_px());
   if (!first) {
     const Judged& earlier = unchanged ? judged : *judged_before_;
@@ -145,10 +155,61 @@ verdict::FrameVerdict Flight::next(int index, const Camera& camera, const oracle
   keep_worst(out.findings);
 
   const Counters& counters = now_->counters;
-  out.counters = {counters.visited, counters.evaluated, counters.split, counters.merged, 0, 0};
-  if (!unchanged) {
-    out.counters.entered = missing_from(keys_now_, keys_before_);
-    out.counters.left = first ? 0 : missing_from(keys_before_, keys_now_);
+  out.counters = {counters.visited, counters.evaluated, counters.split, counters.merged, 0, 0,
+                  counters.nodes,   counters.drawn,     counters.tiles};
+  Keys entered, left;
+  if (first) {
+    out.counters.entered = keys_now_.size();
+  } else if (!unchanged) {
+    entered = missing_from(keys_now_, keys_before_);
+    left = missing_from(keys_before_, keys_now_);
+    out.counters.entered = entered.size();
+    out.counters.left = left.size();
+  }
+  out.stability = judge_stability(scene, out, hits);
+  out.stability.toggles = toggles_.next(scene.index, entered, left);
+  return out;
+}
+
+verdict::StabilityFigures Flight::judge_stability(const FrameScene& scene, const verdict::FrameVerdict& frame,
+                                                  const oracle::PixelHits& hits) {
+  const Camera& camera = scene.camera;
+  const double tau = method_->threshold_px();
+  verdict::StabilityFigures out;
+  out.cut = scene.cut;
+  out.under_threshold = frame.image.displacement_px.count == 0 || frame.image.displacement_px.p99 <= tau;
+
+  probe_->reset();
+  probe_->update(camera, *fresh_);
+  const Keys fresh_keys = sorted_keys(*fresh_);
+  const bool as_fresh = same_surface(*now_, *fresh_);
+  const oracle::RaySurface* fresh_surface = judged_now_->surface.get();
+  std::unique_ptr<oracle::RaySurface> own_surface;
+  out.settled = as_fresh;
+  if (!as_fresh) {
+    own_surface = std::make_unique<oracle::RaySurface>(device_, fresh_->mesh);
+    fresh_surface = own_surface.get();
+    out.path_share = oracle::compare_keys(keys_now_, fresh_keys).share();
+    out.path_px = oracle::pop(camera, *judged_now_->surface, hits, *fresh_surface).max;
+    const oracle::PixelFigure fresh_px = oracle::image_error(camera, *stage_.surface, *scene.reference_hits,
+                                                             *fresh_surface, fresh_surface->look(camera), tau)
+                                             .displacement_px;
+    out.settled = frame.image.displacement_px.p99 <= fresh_px.p99;
+  }
+
+  const Camera shaken_camera = oracle::jittered(camera);
+  probe_->update(shaken_camera, *shaken_);
+  if (!same_surface(*fresh_, *shaken_)) {
+    out.jitter_vertices = oracle::compare_keys(fresh_keys, sorted_keys(*shaken_)).differing;
+    const oracle::RaySurface shaken_surface(device_, shaken_->mesh);
+    out.jitter_px =
+        oracle::pop(shaken_camera, shaken_surface, shaken_surface.look(shaken_camera), *fresh_surface).max;
+  }
+
+  if (scene.comes_again) visited_[scene.index] = keys_now_;
+  if (scene.first_visit >= 0) {
+    out.revisit = true;
+    out.revisit_share = oracle::compare_keys(keys_now_, visited_.at(scene.first_visit)).share();
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -13,11 +14,21 @@
 
 namespace plumbline {
 
-/// A terrain with everything its judges share: the reference surface, ready for rays.
+/// What a method is held to, with everything its judges share: samples and their surface, ready for rays.
 struct TerrainStage {
-  Terrain terrain;
+  Terrain terrain;  ///< as far as the method represents it (LodMethod::reference)
   Mesh reference;
   std::unique_ptr<oracle::RaySurface> surface;  ///< over `reference`
+};
+
+/// One frame of a flight, as all methods see it.
+struct FrameScene {
+  int index = 0;
+  Camera camera;
+  const oracle::PixelHits* reference_hits = nullptr;  ///< the stage's surface seen from `camera`
+  bool cut = false;                                   ///< the camera was cut to this frame (oracle::is_cut)
+  int first_visit = -1;      ///< the first frame of the flight with this camera, if that is an earlier one
+  bool comes_again = false;  ///< the first of several frames with this camera
 };
 
 /// One method flying one trajectory at one threshold, judged frame by frame by every oracle.
@@ -28,9 +39,8 @@ class Flight {
   Flight(std::unique_ptr<LodMethod> method, const TerrainStage& stage, const oracle::RayDevice& device);
   ~Flight();
 
-  /// Moves the method to `camera` and judges what it draws there. `reference_hits` is the stage's surface
-  /// seen from the same camera. Frames must come in order.
-  verdict::FrameVerdict next(int index, const Camera& camera, const oracle::PixelHits& reference_hits);
+  /// Moves the method to the scene's camera and judges what it draws there. Frames must come in order.
+  verdict::FrameVerdict next(const FrameScene& scene);
 
   [[nodiscard]] double last_update_ms() const { return update_ms_; }
   [[nodiscard]] const LodFrame& frame() const { return *now_; }
@@ -38,6 +48,8 @@ class Flight {
  private:
   struct Judged;
   void judge_mesh(Judged& judged) const;
+  verdict::StabilityFigures judge_stability(const FrameScene& scene, const verdict::FrameVerdict& frame,
+                                            const oracle::PixelHits& hits);
 
   std::unique_ptr<LodMethod> method_;
   const TerrainStage& stage_;
@@ -46,6 +58,12 @@ class Flight {
   std::unique_ptr<Judged> judged_now_, judged_before_;
   std::vector<std::uint64_t> keys_now_, keys_before_;  ///< sorted
   double update_ms_ = 0;
+
+  // O5. The probe is a second flyer that starts afresh at every camera.
+  std::unique_ptr<LodMethod> probe_;
+  std::unique_ptr<LodFrame> fresh_, shaken_;
+  oracle::ToggleWatch toggles_;
+  std::map<int, std::vector<std::uint64_t>> visited_;  ///< keys of first visits, by frame
 };
 
 }  // namespace plumbline

@@ -31,6 +31,7 @@ bool was_judged(const verdict::RunSummary& summary, std::string_view figure) {
     return summary.image.displacement_px.count + summary.image.uncovered_px > 0;
   }
   if (of("displacement_px.")) return summary.image.displacement_px.count > 0;
+  if (of("parallax_px.")) return summary.image.parallax_px.count > 0;
   if (of("depth_rel.")) return summary.image.depth_rel.count > 0;
   if (of("pop_px."))
     return summary.pop_px.count > 0 || summary.frames == 1;  // one frame has nothing to pop from

@@ -7,7 +7,10 @@
 #include "properties/harness/run_suite.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -43,13 +46,38 @@ struct Entry {
 /// The suite with everything loaded that runs share.
 struct Stage {
   const Suite* suite = nullptr;
-  std::vector<TerrainStage> terrains;
+  /// [terrain][k]: as far as methods represent it; k = 0 is the whole terrain.
+  std::vector<std::vector<std::unique_ptr<TerrainStage>>> grounds;
+  std::vector<std::vector<std::size_t>> ground_of;                ///< [terrain][spec]: its k
   std::vector<MethodSpec> specs;                                  ///< those that the options keep
   std::vector<Entry> entries;                                     ///< spec × threshold
   std::vector<std::vector<std::unique_ptr<LodMethod>>> prepared;  ///< [terrain][spec]
   std::vector<std::vector<double>> prepare_s;                     ///< [terrain][spec]
   std::vector<std::vector<std::vector<Camera>>> cameras;          ///< [terrain][trajectory][frame]
+
+  [[nodiscard]] const Terrain& terrain(std::size_t t) const { return grounds[t].front()->terrain; }
+  [[nodiscard]] const TerrainStage& ground(std::size_t t, std::size_t spec) const {
+    return *grounds[t][ground_of[t][spec]];
+  }
 };
+
+std::unique_ptr<TerrainStage> make_ground(Terrain terrain, const oracle::RayDevice& device) {
+  auto ground = std::make_unique<TerrainStage>();
+  ground->terrain = std::move(terrain);
+  ground->reference = reference_mesh(ground->terrain);
+  ground->surface = std::make_unique<oracle::RaySurface>(device, ground->reference);
+  return ground;
+}
+
+/// The place among `grounds` of a terrain cut to `block`; added if it is new.
+std::size_t ground_for(std::vector<std::unique_ptr<TerrainStage>>& grounds, SampleBlock block,
+                       const oracle::RayDevice& device) {
+  for (std::size_t k = 0; k < grounds.size(); ++k) {
+    if (grounds[k]->terrain.columns == block.columns && grounds[k]->terrain.rows == block.rows) return k;
+  }
+  grounds.push_back(make_ground(cropped(grounds.front()->terrain, block.columns, block.rows), device));
+  return grounds.size() - 1;
+}
 
 /// The suite's methods that are wanted, in the suite's order.
 std::vector<MethodSpec> kept_methods(const Suite& suite, const std::vector<std::string>& wanted) {
@@ -87,30 +115,30 @@ Stage set_up(const Suite& suite, const RunOptions& options, const oracle::RayDev
     makers.push_back(make_method(stage.specs[s].id, stage.specs[s].options));
     for (const double tau : stage.specs[s].thresholds_px) stage.entries.push_back({&stage.specs[s], s, tau});
   }
-  for (const TerrainSource& source : suite.terrains) {
-    TerrainStage loaded;
-    loaded.terrain = load_terrain(source);
-    loaded.reference = reference_mesh(loaded.terrain);
-    stage.terrains.push_back(std::move(loaded));
-  }
-  for (TerrainStage& loaded :
-       stage.terrains) {  // after the vector has its final place: surfaces refer to its meshes
-    loaded.surface = std::make_unique<oracle::RaySurface>(device, loaded.reference);
+  std::vector<Terrain> terrains;
+  for (const TerrainSource& source : suite.terrains) terrains.push_back(load_terrain(source));
+  for (Terrain& loaded : terrains) {
+    std::vector<std::unique_ptr<TerrainStage>> grounds;
+    grounds.push_back(make_ground(std::move(loaded), device));
+    const Terrain& terrain = grounds.front()->terrain;
     std::vector<std::vector<Camera>> flights;
     for (const TrajectorySpec& spec : suite.trajectories) {
-      flights.push_back(
-          make_trajectory(spec, loaded.terrain, suite.fov_y_deg, suite.width_px, suite.height_px));
+      flights.push_back(make_trajectory(spec, terrain, suite.fov_y_deg, suite.width_px, suite.height_px));
     }
     stage.cameras.push_back(std::move(flights));
     std::vector<std::unique_ptr<LodMethod>> prepared;
     std::vector<double> seconds;
+    std::vector<std::size_t> ground_of;
     for (const std::unique_ptr<LodMethod>& maker : makers) {
       std::unique_ptr<LodMethod> method = maker->clone();
       const Clock::time_point start = Clock::now();
-      method->prepare(loaded.terrain);
+      method->prepare(terrain);
       seconds.push_back(seconds_since(start));
+      ground_of.push_back(ground_for(grounds, method->reference(terrain), device));
       prepared.push_back(std::move(method));
     }
+    stage.grounds.push_back(std::move(grounds));
+    stage.ground_of.push_back(std::move(ground_of));
     stage.prepared.push_back(std::move(prepared));
     stage.prepare_s.push_back(std::move(seconds));
   }
@@ -146,22 +174,61 @@ struct Progress {
   [[nodiscard]] bool cancelled() const { return options.cancelled != nullptr && options.cancelled->load(); }
 };
 
+/// The frames of a flight, as far as its cameras tell: which of them have the same one.
+std::vector<FrameScene> scenes_of(const std::vector<Camera>& cameras) {
+  const auto bits = [](const Camera& c) {
+    return std::array{c.position.x, c.position.y, c.position.z, c.forward.x, c.forward.y,
+                      c.forward.z,  c.up.x,       c.up.y,       c.up.z};
+  };
+  std::map<decltype(bits(Camera{})), std::size_t> first;
+  std::vector<FrameScene> scenes(cameras.size());
+  for (std::size_t f = 0; f < cameras.size(); ++f) {
+    scenes[f].index = static_cast<int>(f);
+    scenes[f].camera = cameras[f];
+    const auto [place, fresh] = first.try_emplace(bits(cameras[f]), f);
+    if (fresh) continue;
+    scenes[f].first_visit = static_cast<int>(place->second);
+    scenes[place->second].comes_again = true;
+  }
+  return scenes;
+}
+
+/// Mean depth of what a picture shows, metres, summed pixel by pixel; +∞ where it shows nothing.
+double mean_depth(const oracle::PixelHits& hits) {
+  double sum_m = 0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < hits.triangle.size(); ++k) {
+    if (hits.triangle[k] == oracle::PixelHits::kNoHit) continue;
+    sum_m += hits.depth_m[k];
+    ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::infinity() : sum_m / static_cast<double>(count);
+}
+
 /// Flies all entries along one trajectory over one terrain. `runs` and `timings` have one slot an entry.
 void fly(const Stage& stage, std::size_t terrain, std::size_t trajectory, const oracle::RayDevice& device,
          verdict::RunVerdict* runs, verdict::RunTiming* timings, Progress& progress) {
-  const TerrainStage& ground = stage.terrains[terrain];
+  const std::vector<std::unique_ptr<TerrainStage>>& grounds = stage.grounds[terrain];
   const std::vector<Camera>& cameras = stage.cameras[terrain][trajectory];
   std::vector<std::unique_ptr<Flight>> flights;
   for (std::size_t e = 0; e < stage.entries.size(); ++e) {
-    flights.push_back(std::make_unique<Flight>(new_flyer(stage, terrain, stage.entries[e]), ground, device));
+    flights.push_back(std::make_unique<Flight>(new_flyer(stage, terrain, stage.entries[e]),
+                                               stage.ground(terrain, stage.entries[e].spec_index), device));
   }
+  std::vector<FrameScene> scenes = scenes_of(cameras);
+  double mean_depth_m = std::numeric_limits<double>::infinity();  // of what the frame before saw
   for (std::size_t f = 0; f < cameras.size() && !progress.cancelled(); ++f) {
-    const oracle::PixelHits seen = ground.surface->look(cameras[f]);
+    std::vector<oracle::PixelHits> seen;
+    for (const auto& ground : grounds) seen.push_back(ground->surface->look(cameras[f]));
+    scenes[f].cut = f > 0 && oracle::is_cut(cameras[f - 1], cameras[f], mean_depth_m);
+    mean_depth_m = mean_depth(seen.front());
     // Isolated: a worker that waits here must not pick up another trajectory and keep two in memory.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, flights.size(), [&](std::size_t e) {
         const Clock::time_point start = Clock::now();
-        runs[e].frames.push_back(flights[e]->next(static_cast<int>(f), cameras[f], seen));
+        FrameScene scene = scenes[f];
+        scene.reference_hits = &seen[stage.ground_of[terrain][stage.entries[e].spec_index]];
+        runs[e].frames.push_back(flights[e]->next(scene));
         timings[e].update_ms.push_back(flights[e]->last_update_ms());
         timings[e].oracle_s += seconds_since(start) - flights[e]->last_update_ms() * 1e-3;
         if (progress.options.mesh_folder) {
@@ -214,11 +281,11 @@ Scene worst_scene(const Stage& stage, const verdict::SuiteVerdict& verdict, std:
 std::vector<verdict::FramePictures> draw_worst(const Stage& stage, const verdict::SuiteVerdict& verdict,
                                                const oracle::RayDevice& device) {
   std::vector<PictureOrder> orders;
-  for (std::size_t t = 0; t < stage.terrains.size(); ++t) {
+  for (std::size_t t = 0; t < stage.grounds.size(); ++t) {
     for (std::size_t s = 0; s < stage.specs.size(); ++s) {
       const Scene scene = worst_scene(stage, verdict, t, s);
       if (scene.run == nullptr) continue;
-      orders.push_back({scene.run->id, scene.run->threshold_px, scene.frame, &stage.terrains[t],
+      orders.push_back({scene.run->id, scene.run->threshold_px, scene.frame, &stage.ground(t, s),
                         &stage.cameras[t][scene.flight], [&stage, t, entry = scene.entry] {
                           return new_flyer(stage, t, stage.entries[entry]);
                         }});
@@ -241,10 +308,12 @@ SuiteOutcome run_in_arena(const Suite& suite, const RunOptions& options, int job
   verdict.width_px = suite.width_px;
   verdict.height_px = suite.height_px;
   verdict.fov_y_deg = suite.fov_y_deg;
-  for (const TerrainStage& ground : stage.terrains) verdict.terrains.push_back(terrain_facts(ground.terrain));
+  for (std::size_t t = 0; t < stage.grounds.size(); ++t) {
+    verdict.terrains.push_back(terrain_facts(stage.terrain(t)));
+  }
 
   const std::size_t flights = suite.trajectories.size();
-  const std::size_t tasks = stage.terrains.size() * flights;
+  const std::size_t tasks = stage.grounds.size() * flights;
   const std::size_t entries = stage.entries.size();
   verdict.runs.resize(tasks * entries);
   outcome.timing.runs.resize(tasks * entries);

@@ -41,6 +41,9 @@ void add(CounterFigures& sum, const CounterFigures& counters) {
   sum.merged += counters.merged;
   sum.entered += counters.entered;
   sum.left += counters.left;
+  sum.nodes = std::max(sum.nodes, counters.nodes);
+  sum.drawn += counters.drawn;
+  sum.tiles += counters.tiles;
 }
 
 /// Mean and root mean square of frames, each weighted by how much was judged in it.
@@ -83,12 +86,13 @@ class PixelPool {
 };
 
 void summarize_image(const std::vector<FrameVerdict>& frames, RunSummary& all) {
-  PixelPool displacement, depth, pop;
+  PixelPool displacement, parallax, depth, pop;
   Pool over_threshold;
   double worst_p99 = -1;
   for (const FrameVerdict& frame : frames) {
     const oracle::ImageError& image = frame.image;
     displacement.add(image.displacement_px);
+    parallax.add(image.parallax_px);
     depth.add(image.depth_rel);
     pop.add(frame.pop_px);
     over_threshold.add(image.over_threshold, 0, static_cast<double>(image.displacement_px.count));
@@ -101,6 +105,7 @@ void summarize_image(const std::vector<FrameVerdict>& frames, RunSummary& all) {
     }
   }
   all.image.displacement_px = displacement.figure();
+  all.image.parallax_px = parallax.figure();
   all.image.depth_rel = depth.figure();
   all.image.over_threshold = over_threshold.mean();
   all.pop_px = pop.figure();
@@ -148,6 +153,27 @@ void summarize_shape(const std::vector<FrameVerdict>& frames, oracle::ShapeRepor
   all.mean_fan_length = fans == 0 ? 0 : triangles / fans;
 }
 
+void summarize_stability(const std::vector<FrameVerdict>& frames, StabilitySummary& all) {
+  oracle::RecoveryWatch recovery, lag;
+  for (const FrameVerdict& frame : frames) {
+    const StabilityFigures& stability = frame.stability;
+    recovery.next(stability.cut, stability.under_threshold);
+    lag.next(stability.cut, stability.settled);
+    all.toggles += stability.toggles;
+    all.jitter_vertices = std::max(all.jitter_vertices, stability.jitter_vertices);
+    raise(all.jitter_px, stability.jitter_px);
+    raise(all.path_share, stability.path_share);
+    raise(all.path_px, stability.path_px);
+    all.revisits += stability.revisit ? 1 : 0;
+    raise(all.revisit_share, stability.revisit_share);
+  }
+  all.cuts = recovery.cuts();
+  all.recovery_frames = recovery.most_frames();
+  all.unrecovered = recovery.unrecovered();
+  all.lag_frames = lag.most_frames();
+  all.unsettled = lag.unrecovered();
+}
+
 template <auto Count>
 double conformity(const RunSummary& summary) {
   return static_cast<double>(summary.conformity.*Count);
@@ -161,7 +187,17 @@ double displacement(const RunSummary& summary) {
   return summary.image.displacement_px.*Member;
 }
 
+template <auto Member>
+double parallax(const RunSummary& summary) {
+  return summary.image.parallax_px.*Member;
+}
+template <auto Member>
+double stability(const RunSummary& summary) {
+  return static_cast<double>(summary.stability.*Member);
+}
+
 using Counts = oracle::ConformityCounts;
+using Stability = StabilitySummary;
 using Vertical = oracle::VerticalError;
 using Pixels = oracle::PixelFigure;
 
@@ -195,6 +231,11 @@ constexpr Figure kFigures[] = {
     {"displacement_px.over_threshold", "share", [](const RunSummary& s) { return s.image.over_threshold; }},
     {"displacement_px.uncovered_px", "px",
      [](const RunSummary& s) { return static_cast<double>(s.image.uncovered_px); }},
+    {"parallax_px.max", "px", parallax<&Pixels::max>},
+    {"parallax_px.p999", "px", parallax<&Pixels::p999>},
+    {"parallax_px.p99", "px", parallax<&Pixels::p99>},
+    {"parallax_px.rms", "px", parallax<&Pixels::rms>},
+    {"parallax_px.mean", "px", parallax<&Pixels::mean>},
     {"depth_rel.max", "ratio", [](const RunSummary& s) { return s.image.depth_rel.max; }},
     {"depth_rel.p99", "ratio", [](const RunSummary& s) { return s.image.depth_rel.p99; }},
     {"silhouette_px.pixels", "px",
@@ -202,6 +243,17 @@ constexpr Figure kFigures[] = {
     {"silhouette_px.max", "px", [](const RunSummary& s) { return s.image.silhouette_max_px; }},
     {"pop_px.max", "px", [](const RunSummary& s) { return s.pop_px.max; }},
     {"pop_px.p99", "px", [](const RunSummary& s) { return s.pop_px.p99; }},
+    {"stability.cuts", "count", stability<&Stability::cuts>},
+    {"stability.recovery_frames", "frames", stability<&Stability::recovery_frames>},
+    {"stability.unrecovered", "count", stability<&Stability::unrecovered>},
+    {"stability.lag_frames", "frames", stability<&Stability::lag_frames>},
+    {"stability.unsettled", "count", stability<&Stability::unsettled>},
+    {"stability.toggles", "count", stability<&Stability::toggles>},
+    {"stability.jitter_vertices", "count", stability<&Stability::jitter_vertices>},
+    {"stability.jitter_px", "px", stability<&Stability::jitter_px>},
+    {"stability.path_share", "share", stability<&Stability::path_share>},
+    {"stability.path_px", "px", stability<&Stability::path_px>},
+    {"stability.revisit_share", "share", stability<&Stability::revisit_share>},
     {"shape.slivers", "count", [](const RunSummary& s) { return static_cast<double>(s.shape.slivers); }},
     {"shape.min_quality", "quality", [](const RunSummary& s) { return s.shape.min_quality; }},
 };
@@ -231,6 +283,7 @@ RunSummary summarize(const std::vector<FrameVerdict>& frames) {
   summarize_image(frames, all);
   summarize_vertical(frames, all.vertical_m);
   summarize_shape(frames, all.shape);
+  summarize_stability(frames, all.stability);
   return all;
 }
 

@@ -11,6 +11,7 @@
 #include "oracle/conformity.h"
 #include "oracle/image.h"
 #include "oracle/shape.h"
+#include "oracle/stability.h"
 #include "oracle/vertical.h"
 #include "scenarios/camera.h"
 #include "scenarios/raster.h"
@@ -18,9 +19,40 @@
 /// What a run found out, as plain data: the only thing that reports see.
 namespace plumbline::verdict {
 
-/// Work and change of one frame; `entered` and `left` count vertices against the frame before.
+/// Work and change of one frame; `entered` and `left` count vertices against the frame before. `nodes`,
+/// `drawn` and `tiles` are 0 for a method that has none.
 struct CounterFigures {
   std::uint64_t visited = 0, evaluated = 0, split = 0, merged = 0, entered = 0, left = 0;
+  std::uint64_t nodes = 0, drawn = 0, tiles = 0;
+};
+
+/// O5 of one frame. A *fresh start* is the same method, reset, at the same camera.
+struct StabilityFigures {
+  bool cut = false;                 ///< the camera was cut to this frame
+  bool under_threshold = false;     ///< p99 displacement ≤ τ, or nothing to judge
+  bool settled = false;             ///< the mesh is a fresh start's, or its p99 is not above a fresh start's
+  std::size_t toggles = 0;          ///< vertices that came back, or went again, within kToggleFrames frames
+  std::size_t jitter_vertices = 0;  ///< that enter or leave when the picture moves by kJitterPx
+  double jitter_px = 0;             ///< largest displacement between the meshes before and after that
+  double path_share = 0;            ///< of vertices in which the mesh differs from a fresh start's
+  double path_px = 0;               ///< largest displacement between the two
+  bool revisit = false;             ///< an earlier frame of the flight had this camera, bit for bit
+  double revisit_share = 0;         ///< of vertices in which the mesh differs from the first such frame's
+};
+
+/// O5 over a trajectory: sums of toggles, worst frames, and frames after cuts (RecoveryWatch).
+struct StabilitySummary {
+  std::size_t cuts = 0;
+  int recovery_frames = 0;      ///< until under τ again
+  std::size_t unrecovered = 0;  ///< cuts after which it never was
+  int lag_frames = 0;           ///< until settled
+  std::size_t unsettled = 0;
+  std::size_t toggles = 0;
+  std::size_t jitter_vertices = 0;
+  double jitter_px = 0;
+  double path_share = 0, path_px = 0;
+  std::size_t revisits = 0;
+  double revisit_share = 0;
 };
 
 struct FrameVerdict {
@@ -36,6 +68,7 @@ struct FrameVerdict {
   oracle::ImageError image;
   oracle::PixelFigure pop_px;  ///< count 0 on the first frame
   oracle::ShapeReport shape;
+  StabilityFigures stability;
   CounterFigures counters;
   std::vector<oracle::Finding> findings;  ///< the worst few, capped at kFindingsListed; counts are complete
   static constexpr std::size_t kFindingsListed = 8;
@@ -43,7 +76,7 @@ struct FrameVerdict {
 
 /// Over a trajectory: counts are summed; max, p999, p99 and gaps are the worst frame's; rms and mean pool all
 /// pixels (vertical: all frames' areas); over_threshold pools pixels; triangles and vertices are means, with
-/// the extremes.
+/// the extremes; nodes is the largest.
 struct RunSummary {
   std::size_t frames = 0;
   double triangles = 0, vertices = 0;
@@ -55,6 +88,7 @@ struct RunSummary {
   oracle::ImageError image;
   oracle::PixelFigure pop_px;
   oracle::ShapeReport shape;
+  StabilitySummary stability;
   CounterFigures counters;
   int worst_frame = 0;  ///< index of the frame with the largest p99 displacement, the first among equals
 };
@@ -68,7 +102,7 @@ RunSummary summarize(const std::vector<FrameVerdict>& frames);
 struct Figure {
   std::string_view
       path;  ///< "crack", "displacement_px.p99": the key in results.json (conformity's counts stand alone)
-  std::string_view unit;  ///< "count", "m", "px", "share", "ratio", "quality"
+  std::string_view unit;  ///< "count", "frames", "m", "px", "share", "ratio", "quality"
   double (*value)(const RunSummary&);
 };
 /// Every figure, in the order of results.json.
