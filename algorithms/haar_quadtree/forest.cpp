@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plumbline::haar_quadtree {
 
@@ -55,23 +54,6 @@ Forest::Box Forest::box(const Node& node) const {
   const Inner& inner = inner_[index(node)];
   return {{node.a * size * spacing_m_, node.b * size * spacing_m_, inner.low_m},
           {(node.a * size + size - 1) * spacing_m_, (node.b * size + size - 1) * spacing_m_, inner.high_m}};
-}
-
-double Forest::screen_error_px(const Node& node, const Camera& camera) const {
-  const Box bounds = box(node);
-  const Vec3& c = camera.position;
-  const auto beyond = [](double low, double high, double x) {
-    return x < low ? low - x : (x > high ? x - high : 0.0);
-  };
-  const Vec3 away{beyond(bounds.low.x, bounds.high.x, c.x), beyond(bounds.low.y, bounds.high.y, c.y),
-                  beyond(bounds.low.z, bounds.high.z, c.z)};
-  const double nearest2 = dot(away, away);
-  if (nearest2 == 0) return std::numeric_limits<double>::infinity();
-  const Vec3 way = position(node) - c;
-  // The horizontal share of the direction to the node, (x² + y²)/(x² + y² + z²), is 1 − (ê_P·ê_z)².
-  const double horizontal2 = way.x * way.x + way.y * way.y;
-  const double share = horizontal2 / ((horizontal2 + way.z * way.z) * nearest2);
-  return camera.kappa_px * inner_[index(node)].error_m * std::sqrt(share);
 }
 
 bool Forest::culled(const Node& node, const Camera& camera) const {

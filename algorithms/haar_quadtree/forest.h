@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "scenarios/camera.h"
@@ -93,5 +96,22 @@ class Forest {
   std::vector<std::size_t> first_;  ///< index of the first node of each level, and one past the last
   std::vector<Inner> inner_;        ///< all nodes but the leaves, by index
 };
+
+// Here, because half of a frame's time is spent in it.
+inline double Forest::screen_error_px(const Node& node, const Camera& camera) const {
+  const Inner& inner = inner_[index(node)];
+  const double size = 1 << (leaf_level_ - node.level);
+  const double half_m = (size - 1) / 2 * spacing_m_;  // of the box, east and north of the node
+  const double x = ((node.a + 0.5) * size - 0.5) * spacing_m_ - camera.position.x;
+  const double y = ((node.b + 0.5) * size - 0.5) * spacing_m_ - camera.position.y;
+  const double z = inner.mean_m - camera.position.z;
+  const Vec3 away{std::max(std::abs(x) - half_m, 0.0), std::max(std::abs(y) - half_m, 0.0),
+                  std::max(std::max(inner.low_m - camera.position.z, camera.position.z - inner.high_m), 0.0)};
+  const double nearest2 = dot(away, away);
+  if (nearest2 == 0) return std::numeric_limits<double>::infinity();
+  // The horizontal share of the direction to the node, (x² + y²)/(x² + y² + z²), is 1 − (ê_P·ê_z)².
+  const double horizontal2 = x * x + y * y;
+  return camera.kappa_px * inner.error_m * std::sqrt(horizontal2 / ((horizontal2 + z * z) * nearest2));
+}
 
 }  // namespace plumbline::haar_quadtree
