@@ -87,13 +87,13 @@ LawOutcome check(const LawInput& input) {
   finding.code = oracle::FindingCode::error_over_threshold;
   finding.gap_px = displaced_px;
   if (const auto z = mesh.height_at({at.x, at.y})) finding.gap_m = *z - at.z;
-  return violated(
-      fmt::format("displaced by {:.6g} px = {:.4g} tau at ({:.6g}, {:.6g}, {:.6g}), {:.6g} m of "
-                  "height; {} of {} pixels over tau",
-                  displaced_px, displaced_px / input.threshold_px, at.x, at.y, at.z, std::fabs(finding.gap_m),
-                  std::lround(error.over_threshold * static_cast<double>(error.displacement_px.count)),
-                  error.displacement_px.count),
-      std::move(finding));
+  const long over = std::lround(error.over_threshold * static_cast<double>(error.displacement_px.count));
+  std::string what = fmt::format(
+      "displaced by {:.6g} px = {:.4g} tau at ({:.6g}, {:.6g}, {:.6g}), {:.6g} m of height; {} of {} pixels "
+      "over tau",
+      displaced_px, displaced_px / input.threshold_px, at.x, at.y, at.z, std::fabs(finding.gap_m), over,
+      error.displacement_px.count);
+  return violated(std::move(what), std::move(finding));
 }
 
 }  // namespace
