@@ -158,6 +158,45 @@ std::string economy(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
   return table.empty() ? std::string() : "\n## Speed and accuracy\n\n" + table.text();
 }
 
+/// O5 over all terrains, flights and thresholds of a method.
+std::string stability(const verdict::SuiteVerdict& verdict) {
+  std::vector<std::string> methods;
+  std::map<std::string, verdict::StabilitySummary> worst;
+  for (const verdict::RunVerdict& run : verdict.runs) {
+    if (!worst.contains(run.method)) methods.push_back(run.method);
+    verdict::StabilitySummary& all = worst[run.method];
+    const verdict::StabilitySummary& one = run.summary.stability;
+    all.cuts += one.cuts;
+    all.recovery_frames = std::max(all.recovery_frames, one.recovery_frames);
+    all.unrecovered += one.unrecovered;
+    all.lag_frames = std::max(all.lag_frames, one.lag_frames);
+    all.unsettled += one.unsettled;
+    all.toggles += one.toggles;
+    all.jitter_vertices = std::max(all.jitter_vertices, one.jitter_vertices);
+    all.jitter_px = std::max(all.jitter_px, one.jitter_px);
+    all.path_share = std::max(all.path_share, one.path_share);
+    all.path_px = std::max(all.path_px, one.path_px);
+    all.revisits += one.revisits;
+    all.revisit_share = std::max(all.revisit_share, one.revisit_share);
+  }
+  MarkdownTable table(
+      {"method", "toggles", "0.01 px: vertices", "0.01 px: pop (px)", "cuts", "frames until under τ", "never",
+       "frames until as fresh", "never", "differs from fresh (share)", "(px)", "on coming back (share)"},
+      1);
+  for (const std::string& method : methods) {
+    const verdict::StabilitySummary& all = worst[method];
+    const auto after_cut = [&](double value) {
+      return all.cuts == 0 ? std::string("—") : short_number(value);
+    };
+    table.row({markdown_cell(method), std::to_string(all.toggles), std::to_string(all.jitter_vertices),
+               short_number(all.jitter_px), std::to_string(all.cuts), after_cut(all.recovery_frames),
+               after_cut(static_cast<double>(all.unrecovered)), after_cut(all.lag_frames),
+               after_cut(static_cast<double>(all.unsettled)), short_number(all.path_share),
+               short_number(all.path_px), all.revisits == 0 ? "—" : short_number(all.revisit_share)});
+  }
+  return table.empty() ? std::string() : "\n## Stability\n\n" + table.text();
+}
+
 }  // namespace
 
 std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing) {
@@ -167,7 +206,7 @@ std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::Suit
   if (!words.sentences.empty()) out += '\n';
   for (const std::string& sentence : words.sentences) out += fmt::format("- {}\n", markdown_cell(sentence));
   out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + offenders(verdict) +
-         economy(verdict, timing);
+         economy(verdict, timing) + stability(verdict);
   return out;
 }
 

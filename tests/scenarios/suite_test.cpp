@@ -271,12 +271,13 @@ TEST(ShippedSuites, LoadAndCoverWhatTheyPromise) {
     }
   }
   EXPECT_EQ(kinds, (std::set<std::string>{"approach", "hover", "nadir", "orbit", "retreat", "skim", "spin",
-                                          "teleport"}));
+                                          "teleport", "two_ways"}));
   EXPECT_FALSE(suite.terrains.at(0).file.empty()) << "the first terrain is real";
   std::set<std::string> methods;
   for (const MethodSpec& method : suite.methods) methods.insert(method.id);
-  EXPECT_EQ(methods,
-            (std::set<std::string>{"block_bintree", "full", "full:alternating", "restricted_quadtree"}));
+  EXPECT_EQ(methods, (std::set<std::string>{"block_bintree", "full", "full:alternating", "haar_quadtree",
+                                            "haar_quadtree:morph", "isolated_quadtree",
+                                            "isolated_quadtree:no_cos", "restricted_quadtree"}));
   EXPECT_FALSE(suite.gates.empty());
 
   const Suite steep = load_suite(kSuites / "steep.toml");

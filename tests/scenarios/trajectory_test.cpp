@@ -67,9 +67,10 @@ TEST(Trajectories, EveryKindStaysAboveEveryGround) {
 }
 
 const std::map<std::string, std::uint64_t> kGolden{
-    {"approach", 0x6c5b505534441177}, {"retreat", 0x86db3bd9fe4a3f9f}, {"orbit", 0x70b4681f59ff8150},
-    {"skim", 0x1d9b8cb1453cb879},     {"spin", 0xb3a2b7255eb84be6},    {"nadir", 0x8666943e97e27b9f},
-    {"teleport", 0x7316e8686d310235}, {"hover", 0xb536374f4f1876a6},   {"poses", 0x2c77eaf7643abcb9},
+    {"approach", 0x6c5b505534441177}, {"retreat", 0x86db3bd9fe4a3f9f},  {"orbit", 0x70b4681f59ff8150},
+    {"skim", 0x1d9b8cb1453cb879},     {"spin", 0xb3a2b7255eb84be6},     {"nadir", 0x8666943e97e27b9f},
+    {"teleport", 0x7316e8686d310235}, {"two_ways", 0x668d5669c82898c7}, {"hover", 0xb536374f4f1876a6},
+    {"poses", 0x2c77eaf7643abcb9},
 };
 
 TEST(Trajectories, SameBitsWithEveryCompilerAndBuild) {
@@ -205,6 +206,38 @@ TEST(Trajectories, HoverMovesByLessThanItsJitter) {
   EXPECT_GT(largest_px, 0.2);
 }
 
+TEST(Trajectories, TwoWaysHoldsOnePoseTwice) {
+  const Terrain terrain = generated("fbm");
+  for (const int frames : {8, 15, 16, 40}) {
+    const std::vector<Camera> cameras = fly(script("two_ways", frames), terrain);
+    ASSERT_EQ(cameras.size(), static_cast<std::size_t>(frames));
+    const Camera& held = cameras.back();
+    std::vector<int> visits;  // runs of frames at the pose
+    bool there = false;
+    for (const Camera& camera : cameras) {
+      const bool now = camera.position == held.position && camera.forward == held.forward;
+      if (now && !there) visits.push_back(0);
+      if (now) ++visits.back();
+      there = now;
+    }
+    ASSERT_EQ(visits.size(), 2u) << frames;
+    EXPECT_EQ(visits[0], 3);
+    EXPECT_GE(visits[1], 3);
+    // From afar first, then from near.
+    EXPECT_GT(length(cameras.front().position - held.position), 0.2 * terrain.width_m());
+  }
+}
+
+TEST(Trajectories, TeleportHoldsAsLongAsAsked) {
+  const Terrain terrain = generated("fbm");
+  TrajectorySpec spec = script("teleport", 24);
+  spec.hold_frames = 8;
+  const std::vector<Camera> cameras = fly(spec, terrain);
+  for (std::size_t f = 1; f < cameras.size(); ++f) {
+    EXPECT_EQ(cameras[f].position == cameras[f - 1].position, f % 8 != 0) << f;
+  }
+}
+
 TEST(Trajectories, GivenPoses) {
   const Terrain terrain = generated("plane");
   TrajectorySpec spec = script("poses");
@@ -239,6 +272,8 @@ TEST(Trajectories, BadScripts) {
             "trajectory 'x': 100001 frames; give 1 to 100000");
   EXPECT_EQ(message([](TrajectorySpec& s) { s.height_m = -1; }),
             "trajectory 'x': height_m is -1; give 0 or more");
+  EXPECT_EQ(message([](TrajectorySpec& s) { s.hold_frames = -1; }),
+            "trajectory 'x': hold_frames is -1; give 1 or more");
   EXPECT_EQ(message([](TrajectorySpec& s) { s.distance_m = INFINITY; }),
             "trajectory 'x': distance_m is inf; give 0 or more");
   EXPECT_EQ(message([](TrajectorySpec& s) {

@@ -17,6 +17,7 @@ interface Point {
   triangles: Figure;  // mean
   p99: Figure;        // px, median frame
   p99Worst: Figure;   // px, worst frame
+  parallax: Figure;   // px, p99, median frame
   max: Figure;        // px, worst run
   findings: number;
 }
@@ -39,6 +40,8 @@ function points(runs: Run[]): Point[] {
       // The middle frame: one frame close to the ground, where a cell spans many pixels, must not stand for a flight.
       p99: median(group.flatMap((run) => run.frames.map((frame) => frame.displacement_px.p99))
         .filter((value): value is number => value !== null)),
+      parallax: median(group.flatMap((run) => run.frames.map((frame) => frame.parallax_px.p99))
+        .filter((value): value is number => value !== null)),
       p99Worst: worst(group.map((run) => run.summary.displacement_px.p99)),
       max: worst(group.map((run) => run.summary.displacement_px.max)),
       findings: group.reduce((sum, run) =>
@@ -59,10 +62,13 @@ function ceilingOf(values: Figure[], floor: number): number {
   return 10 ** Math.ceil(Math.log10(most) - 1e-9);
 }
 
-function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Option {
-  const all = points(runs).filter((point) => point[x] !== null && point.p99 !== null);
-  const floor = floorOf(all.map((point) => point.p99), LEAST_FLOOR_PX);
-  const pinned = all.some((point) => point.p99! < floor);
+type Error = 'p99' | 'parallax';
+const ERRORS: Record<Error, string> = { p99: 'displacement', parallax: 'parallax' };
+
+function errorChart(runs: Run[], width: number, x: 'update' | 'triangles', y: Error): Option {
+  const all = points(runs).filter((point) => point[x] !== null && point[y] !== null);
+  const floor = floorOf(all.map((point) => point[y]), LEAST_FLOOR_PX);
+  const pinned = all.some((point) => point[y]! < floor);
   const xFloor = 10 ** Math.floor(Math.log10(Math.max(1e-5, Math.min(...all.map((point) => point[x]!)))) + 1e-9);
   const shown = methods.filter((method) => all.some((point) => point.method === method));
   return {
@@ -77,6 +83,7 @@ function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Opti
           ['triangles, mean', short(point.triangles)],
           ['displacement, p99, median frame', `${short(point.p99)} px`],
           ['displacement, p99, worst frame', `${short(point.p99Worst)} px`],
+          ['parallax, p99, median frame', `${short(point.parallax)} px`],
           ['displacement, max', `${short(point.max)} px`],
           ['findings', short(point.findings)],
           ['runs', short(point.runs)],
@@ -86,8 +93,8 @@ function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Opti
     xAxis: axis(x === 'update' ? 'update time per frame, median (ms)' : 'triangles per frame, mean', 'x', 'log', {
       min: xFloor, max: ceilingOf(all.map((point) => point[x]), xFloor),
     }),
-    yAxis: axis('p99 displacement, median frame (px)', 'y', 'log', {
-      min: floor, max: ceilingOf(all.map((point) => point.p99), floor),
+    yAxis: axis(`p99 ${ERRORS[y]}, median frame (px)`, 'y', 'log', {
+      min: floor, max: ceilingOf(all.map((point) => point[y]), floor),
       axisLabel: {
         color: css('--muted'), fontSize: 12,
         formatter: (value: number) => (pinned && value <= floor * 1.0001 ? `≤ ${tick(value)}` : tick(value)),
@@ -104,15 +111,15 @@ function errorChart(runs: Run[], width: number, x: 'update' | 'triangles'): Opti
         label: {
           show: width >= NARROW, position: methods.indexOf(method) % 2 ? 'right' : 'left', distance: 6, color: css('--muted'), fontSize: 11,
           formatter: ({ data }: { data: { point: Point } }) =>
-            data.point.p99 === 0 ? 'zero error' : `τ ${short(data.point.threshold)}`,
+            data.point[y] === 0 ? 'zero error' : `τ ${short(data.point.threshold)}`,
         },
         labelLayout: { hideOverlap: true },
         data: all.filter((point) => point.method === method).map((point) => ({
-          value: [Math.max(xFloor, point[x]!), Math.max(floor, point.p99!)],
+          value: [Math.max(xFloor, point[x]!), Math.max(floor, point[y]!)],
           point,
           // Hollow: the 99th percentile is above the threshold that the method was given.
-          label: point.p99! < floor ? { position: 'top' } : undefined,
-          itemStyle: point.p99! > point.threshold
+          label: point[y]! < floor ? { position: 'top' } : undefined,
+          itemStyle: y === 'p99' && point.p99! > point.threshold
             ? { color: css('--card'), borderColor: colour, borderWidth: 2.5 }
             : { color: colour },
         })),
@@ -126,18 +133,19 @@ export function accuracySection(): HTMLElement {
   const terrain = select('Terrain', orAll(terrains, 'all together'), terrains.length < 2 ? terrains[0] ?? '' : '', redraw);
   const trajectory = select('Trajectory', orAll(trajectories, 'all together'),
     trajectories.length < 2 ? trajectories[0] ?? '' : '', redraw);
+  const error = select('Error', (Object.keys(ERRORS) as Error[]).map((value) => ({ value, label: ERRORS[value] })), 'p99', redraw);
   const chosen = () => results.runs.filter((run) =>
     (terrain.value() === '' || run.terrain === terrain.value()) &&
     (trajectory.value() === '' || run.trajectory === trajectory.value()));
   const speed = chart('Chart: update time against displacement, a curve per method',
-    (width) => errorChart(chosen(), width, 'update'));
+    (width) => errorChart(chosen(), width, 'update', error.value() as Error));
   const size = chart('Chart: triangles against displacement, a curve per method',
-    (width) => errorChart(chosen(), width, 'triangles'));
+    (width) => errorChart(chosen(), width, 'triangles', error.value() as Error));
   const charts = [speed, size];
   return section('accuracy', 'Speed against accuracy',
     el('p', { class: 'lead' }, 'Down and to the left is better. A curve joins one method’s thresholds τ; a hollow marker ' +
       'means that in the middle frame the 99th percentile of the displacement lies above τ. Zero error stands on the axis’ floor.'),
-    controls(terrain, trajectory),
+    controls(terrain, trajectory, error),
     el('div', { class: 'pair' },
       el('figure', {}, el('figcaption', {}, 'Update time against error'), speed.element),
       el('figure', {}, el('figcaption', {}, 'Triangles against error'), size.element)));

@@ -23,6 +23,7 @@ export interface Figures {
   displacement_px: {
     max: Figure; p999: Figure; p99: Figure; rms: Figure; mean: Figure; over_threshold: Figure; uncovered_px: number;
   };
+  parallax_px: { max: Figure; p999: Figure; p99: Figure; rms: Figure; mean: Figure };
   depth_rel: { max: Figure; p99: Figure };
   silhouette_px: { pixels: number; max: Figure };
   pop_px: { max: Figure; p99: Figure };
@@ -42,8 +43,18 @@ export interface Finding {
   distance_m?: Figure;
 }
 
+export interface FrameStability {
+  cut: boolean; under_threshold: boolean; settled: boolean; toggles: number; jitter_vertices: number; jitter_px: Figure;
+  path_share: Figure; path_px: Figure; revisit_share: Figure;
+}
+export interface RunStability {
+  cuts: number; recovery_frames: Figure; unrecovered: Figure; lag_frames: Figure; unsettled: Figure; toggles: number;
+  jitter_vertices: number; jitter_px: Figure; path_share: Figure; path_px: Figure; revisits: number; revisit_share: Figure;
+}
+
 export interface Frame extends Figures {
   index: number;
+  stability: FrameStability;
   findings: Finding[];
 }
 
@@ -54,7 +65,7 @@ export interface Run {
   method: string;
   threshold_px: number;
   frames: Frame[];
-  summary: Figures & { frames: number; worst_frame: number };
+  summary: Figures & { frames: number; worst_frame: number; stability: RunStability };
 }
 
 export interface Gate { name: string; run: string; limit: string; value: Figure; pass: boolean }

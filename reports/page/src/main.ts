@@ -7,6 +7,7 @@ import { section } from './controls';
 import { facts, methods, results, timing, trajectories } from './data';
 import { definitionsSection, findingsSection, gatesSection, matrixSection, terrainsSection } from './tables';
 import { el, plural, short } from './text';
+import { stabilitySection } from './stability';
 import { timelineSection } from './timeline';
 
 function fact(name: string, ...value: (Node | string)[]): HTMLElement {
@@ -59,7 +60,7 @@ function picturesSection(): HTMLElement | null {
 }
 
 const sections = [
-  matrixSection(), ...(results.runs.length === 0 ? [] : [accuracySection(), timelineSection()]), picturesSection(),
+  matrixSection(), ...(results.runs.length === 0 ? [] : [accuracySection(), stabilitySection(), timelineSection()]), picturesSection(),
   gatesSection(), findingsSection(), terrainsSection(), definitionsSection(),
 ].filter((part): part is HTMLElement => part !== null);
 

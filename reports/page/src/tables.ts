@@ -8,7 +8,7 @@ import { el, plural, short } from './text';
 type Cell = Node | string;
 interface Column { head: Cell; number?: boolean }
 
-function table(columns: Column[], rows: Cell[][], label: string): HTMLElement {
+export function table(columns: Column[], rows: Cell[][], label: string): HTMLElement {
   const kind = (place: number) => (columns[place]?.number ? { class: 'n' } : {}) as Record<string, string>;
   const box = el('table', { 'aria-label': label },
     el('thead', {}, el('tr', {}, ...columns.map((column, place) => el('th', { scope: 'col', ...kind(place) }, column.head)))),
