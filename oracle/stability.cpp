@@ -4,6 +4,7 @@
 #include "oracle/stability.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace plumbline::oracle {
@@ -46,15 +47,32 @@ KeyDifference compare_keys(std::span<const std::uint64_t> a, std::span<const std
   return {a.size() + b.size() - 2 * common, a.size() + b.size() - common};
 }
 
-Camera jittered(const Camera& camera) {
+Camera jittered(const Camera& camera, double mean_depth_m) {
   Camera out = camera;
-  // A turn by the angle whose tangent is kJitterPx/κ; `up` stays orthogonal to the new direction.
-  out.forward = normalized(camera.forward + camera.right() * (kJitterPx / camera.kappa_px));
+  double turn_px = kJitterPx;
+  if (std::isfinite(mean_depth_m)) {
+    turn_px = kJitterPx / 2;
+    out.position = camera.position + camera.right() * (kJitterPx / 2 / camera.kappa_px * mean_depth_m);
+  }
+  // A turn by the angle whose tangent is turn_px/κ; `up` stays orthogonal to the new direction.
+  out.forward = normalized(camera.forward + camera.right() * (turn_px / camera.kappa_px));
   return out;
 }
 
-bool is_cut(const Camera& before, const Camera& now, double mean_depth_m) {
-  if (length(now.position - before.position) > kCutShareOfDepth * mean_depth_m) return true;
+double median_step_m(std::span<const Camera> flight) {
+  std::vector<double> steps_m;
+  for (std::size_t f = 1; f < flight.size(); ++f) {
+    steps_m.push_back(length(flight[f].position - flight[f - 1].position));
+  }
+  if (steps_m.empty()) return 0;
+  const auto middle = steps_m.begin() + static_cast<std::ptrdiff_t>((steps_m.size() - 1) / 2);
+  std::nth_element(steps_m.begin(), middle, steps_m.end());
+  return *middle;
+}
+
+bool is_cut(const Camera& before, const Camera& now, double mean_depth_m, double median_step_m) {
+  const double step_m = length(now.position - before.position);
+  if (step_m > kCutShareOfDepth * mean_depth_m && step_m > kCutTimesMedianStep * median_step_m) return true;
   // cos of the horizontal field of view, from the tangent of its half.
   const double half = before.width_px * 0.5 / before.kappa_px;
   return dot(before.forward, now.forward) < (1 - half * half) / (1 + half * half);

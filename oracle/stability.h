@@ -47,17 +47,22 @@ KeyDifference compare_keys(std::span<const std::uint64_t> a, std::span<const std
 
 /// How far the picture moves under `jittered`, pixels (ORACLES O5): far less than any eye or threshold knows.
 inline constexpr double kJitterPx = 0.01;
-/// The camera turned to the right so that the middle of its picture moves by kJitterPx.
-Camera jittered(const Camera& camera);
+/// The camera moved to the right and turned to the right, each so that what stands at `mean_depth_m` in the
+/// middle of the picture moves by half of kJitterPx: what depends on the place and what depends on the
+/// direction are both shaken. Without a depth (+∞) it turns only, by all of it.
+Camera jittered(const Camera& camera, double mean_depth_m);
 
-/// A step of this share of the mean depth in view is a cut: flights of a few dozen frames move by a tenth of
-/// it, and a step that carries the camera halfway to what it saw leaves no frame-to-frame coherence to rely
-/// on.
+/// A step is a cut if it is longer than this share of the mean depth in view: a camera that is carried
+/// halfway to what it saw leaves little to be coherent with …
 inline constexpr double kCutShareOfDepth = 0.5;
-/// Whether the camera was cut from `before` to `now`: a step beyond kCutShareOfDepth of `mean_depth_m` (mean
-/// depth of what `before` saw, metres; +∞ where it saw nothing), or a turn by more than the picture's
-/// width, so that the two pictures share nothing.
-bool is_cut(const Camera& before, const Camera& now, double mean_depth_m);
+/// … and so many times longer than the flight's median step: what every frame does is how it flies.
+inline constexpr double kCutTimesMedianStep = 4;
+/// The median (nearest rank) of the distances between successive cameras, metres; 0 without any.
+double median_step_m(std::span<const Camera> flight);
+/// Whether the camera was cut from `before` to `now`: a step beyond both limits (`mean_depth_m`: mean depth
+/// of what `before` saw, metres; +∞ where it saw nothing), or a turn by more than the picture's width, so
+/// that the two pictures share nothing.
+bool is_cut(const Camera& before, const Camera& now, double mean_depth_m, double median_step_m);
 
 /// Frames until something is good again after each cut.
 class RecoveryWatch {

@@ -87,7 +87,8 @@ Flight::Flight(std::unique_ptr<LodMethod> method, const TerrainStage& stage, con
       before_(std::make_unique<LodFrame>()),
       probe_(method_->clone()),
       fresh_(std::make_unique<LodFrame>()),
-      shaken_(std::make_unique<LodFrame>()) {
+      shaken_(std::make_unique<LodFrame>()),
+      again_(std::make_unique<LodFrame>()) {
   probe_->set_threshold_px(method_->threshold_px());
 }
 
@@ -177,7 +178,10 @@ verdict::StabilityFigures Flight::judge_stability(const FrameScene& scene, const
   const double tau = method_->threshold_px();
   verdict::StabilityFigures out;
   out.cut = scene.cut;
-  out.under_threshold = frame.image.displacement_px.count == 0 || frame.image.displacement_px.p99 <= tau;
+  const oracle::ImageError& image = frame.image;
+  // Where no pixel could be judged because there is no mesh, nothing is under a threshold.
+  out.under_threshold =
+      image.displacement_px.count > 0 ? image.displacement_px.p99 <= tau : image.uncovered_px == 0;
 
   probe_->reset();
   probe_->update(camera, *fresh_);
@@ -191,19 +195,26 @@ verdict::StabilityFigures Flight::judge_stability(const FrameScene& scene, const
     fresh_surface = own_surface.get();
     out.path_share = oracle::compare_keys(keys_now_, fresh_keys).share();
     out.path_px = oracle::pop(camera, *judged_now_->surface, hits, *fresh_surface).max;
-    const oracle::PixelFigure fresh_px = oracle::image_error(camera, *stage_.surface, *scene.reference_hits,
-                                                             *fresh_surface, fresh_surface->look(camera), tau)
-                                             .displacement_px;
-    out.settled = frame.image.displacement_px.p99 <= fresh_px.p99;
+    const oracle::ImageError fresh = oracle::image_error(camera, *stage_.surface, *scene.reference_hits,
+                                                         *fresh_surface, fresh_surface->look(camera), tau);
+    out.settled =
+        image.uncovered_px <= fresh.uncovered_px && image.displacement_px.p99 <= fresh.displacement_px.p99;
   }
 
-  const Camera shaken_camera = oracle::jittered(camera);
+  const Camera shaken_camera = oracle::jittered(camera, scene.mean_depth_m);
   probe_->update(shaken_camera, *shaken_);
   if (!same_surface(*fresh_, *shaken_)) {
-    out.jitter_vertices = oracle::compare_keys(fresh_keys, sorted_keys(*shaken_)).differing;
-    const oracle::RaySurface shaken_surface(device_, shaken_->mesh);
-    out.jitter_px =
-        oracle::pop(shaken_camera, shaken_surface, shaken_surface.look(shaken_camera), *fresh_surface).max;
+    // A second update that changes the mesh without any jitter is another matter: compared are second
+    // updates.
+    probe_->reset();
+    probe_->update(camera, *again_);
+    probe_->update(camera, *again_);
+    out.jitter_vertices = oracle::compare_keys(sorted_keys(*again_), sorted_keys(*shaken_)).differing;
+    if (!same_surface(*again_, *shaken_)) {
+      const oracle::RaySurface still(device_, again_->mesh);
+      const oracle::RaySurface shaken(device_, shaken_->mesh);
+      out.jitter_px = oracle::pop(shaken_camera, shaken, shaken.look(shaken_camera), still).max;
+    }
   }
 
   if (scene.comes_again) visited_[scene.index] = keys_now_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <vector>
@@ -26,7 +27,9 @@ struct FrameScene {
   int index = 0;
   Camera camera;
   const oracle::PixelHits* reference_hits = nullptr;  ///< the stage's surface seen from `camera`
-  bool cut = false;                                   ///< the camera was cut to this frame (oracle::is_cut)
+  /// Of what the reference shows from `camera`, metres; +∞ where it shows nothing.
+  double mean_depth_m = std::numeric_limits<double>::infinity();
+  bool cut = false;          ///< the camera was cut to this frame (oracle::is_cut)
   int first_visit = -1;      ///< the first frame of the flight with this camera, if that is an earlier one
   bool comes_again = false;  ///< the first of several frames with this camera
 };
@@ -61,7 +64,7 @@ class Flight {
 
   // O5. The probe is a second flyer that starts afresh at every camera.
   std::unique_ptr<LodMethod> probe_;
-  std::unique_ptr<LodFrame> fresh_, shaken_;
+  std::unique_ptr<LodFrame> fresh_, shaken_, again_;
   oracle::ToggleWatch toggles_;
   std::map<int, std::vector<std::uint64_t>> visited_;  ///< keys of first visits, by frame
 };

@@ -38,6 +38,17 @@ bool was_judged(const verdict::RunSummary& summary, std::string_view figure) {
   return summary.frames > 0;
 }
 
+/// Whether a run has what the figure is about: a cut to recover from, a camera that comes again. A flight
+/// without it is not asked.
+bool is_about(const verdict::RunSummary& summary, std::string_view figure) {
+  if (figure == "stability.revisit_share") return summary.stability.revisits > 0;
+  for (const std::string_view after_cut : {"stability.recovery_frames", "stability.unrecovered",
+                                           "stability.lag_frames", "stability.unsettled"}) {
+    if (figure == after_cut) return summary.stability.cuts > 0;
+  }
+  return true;
+}
+
 /// What holds where a suite asks for nothing: a forgotten gate table must not turn findings green.
 std::vector<GateSpec> default_gates() {
   std::vector<GateSpec> gates;
@@ -61,7 +72,7 @@ std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& asked
           gate.method.empty() && std::any_of(gates.begin(), gates.end(), [&](const GateSpec& other) {
             return other.method == run.method && other.figure == gate.figure;
           });
-      if (replaced) continue;
+      if (replaced || !is_about(run.summary, gate.figure)) continue;
       const double limit = gate.times_tau ? gate.bound * run.threshold_px : gate.bound;
       verdict::GateVerdict judged;
       judged.name = gate.method.empty() ? gate.text : fmt::format("{}: {}", gate.method, gate.text);
@@ -76,6 +87,22 @@ std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& asked
       }
       out.push_back(std::move(judged));
     }
+  }
+  // A gate that no run was asked for has judged nothing, and must not look like one that holds.
+  for (const GateSpec& gate : gates) {
+    const auto mine = [&](const verdict::RunVerdict& run) {
+      return gate.method.empty() || gate.method == run.method;
+    };
+    const auto first = std::find_if(runs.begin(), runs.end(), mine);
+    if (first == runs.end()) continue;
+    if (std::any_of(runs.begin(), runs.end(), [&](const verdict::RunVerdict& run) {
+          return mine(run) && is_about(run.summary, gate.figure);
+        })) {
+      continue;
+    }
+    out.push_back({gate.method.empty() ? gate.text : fmt::format("{}: {}", gate.method, gate.text), first->id,
+                   fmt::format("{} {}", gate.comparison, gate.bound),
+                   std::numeric_limits<double>::quiet_NaN(), false});
   }
   return out;
 }

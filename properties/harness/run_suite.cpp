@@ -217,11 +217,13 @@ void fly(const Stage& stage, std::size_t terrain, std::size_t trajectory, const 
   }
   std::vector<FrameScene> scenes = scenes_of(cameras);
   double mean_depth_m = std::numeric_limits<double>::infinity();  // of what the frame before saw
+  const double step_m = oracle::median_step_m(cameras);
   for (std::size_t f = 0; f < cameras.size() && !progress.cancelled(); ++f) {
     std::vector<oracle::PixelHits> seen;
     for (const auto& ground : grounds) seen.push_back(ground->surface->look(cameras[f]));
-    scenes[f].cut = f > 0 && oracle::is_cut(cameras[f - 1], cameras[f], mean_depth_m);
+    scenes[f].cut = f > 0 && oracle::is_cut(cameras[f - 1], cameras[f], mean_depth_m, step_m);
     mean_depth_m = mean_depth(seen.front());
+    scenes[f].mean_depth_m = mean_depth_m;
     // Isolated: a worker that waits here must not pick up another trajectory and keep two in memory.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, flights.size(), [&](std::size_t e) {

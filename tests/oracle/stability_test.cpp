@@ -6,6 +6,8 @@
 #include "oracle/stability.h"
 
 #include <limits>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -75,12 +77,16 @@ TEST(KeySets, CompareBySymmetricDifference) {
 TEST(Jitter, MovesThePicturesMiddleByAHundredthOfAPixel) {
   for (const double fov_y_deg : {20.0, 60.0, 120.0}) {
     const Camera camera = make_camera({100, 200, 300}, {400, 900, 50}, fov_y_deg, 640, 360);
-    const Camera moved = jittered(camera);
-    EXPECT_EQ(moved.position, camera.position);
+    const Camera turned = jittered(camera, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(turned.position, camera.position);
+    const Camera moved = jittered(camera, 500);
+    EXPECT_NE(moved.position, camera.position);
+    EXPECT_NE(moved.forward, camera.forward);
     const Vec3 ahead = camera.position + 500 * camera.forward;
     const Vec2 before = camera.project(ahead), after = moved.project(ahead);
     // The projection of a point 500 m ahead rounds far below a millionth of a pixel.
     EXPECT_NEAR(before.x - after.x, kJitterPx, 1e-6);
+    EXPECT_NEAR(before.x - turned.project(ahead).x, kJitterPx, 1e-6);
     EXPECT_NEAR(before.y, after.y, 1e-6);
     EXPECT_NEAR(length(moved.forward), 1, 1e-15);
     EXPECT_NEAR(dot(moved.forward, moved.up), 0, 1e-15);
@@ -90,9 +96,18 @@ TEST(Jitter, MovesThePicturesMiddleByAHundredthOfAPixel) {
 TEST(Cuts, AStepBeyondHalfTheDepthInViewIsOne) {
   const Camera camera = make_camera({0, 0, 100}, {0, 1000, 0}, 60, 640, 360);
   const Camera step = make_camera({0, 300, 100}, {0, 1300, 0}, 60, 640, 360);
-  EXPECT_TRUE(is_cut(camera, step, 500));
-  EXPECT_FALSE(is_cut(camera, step, 700));
-  EXPECT_FALSE(is_cut(camera, step, std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(is_cut(camera, step, 500, 70));
+  EXPECT_FALSE(is_cut(camera, step, 700, 70)) << "less than half the depth in view";
+  EXPECT_FALSE(is_cut(camera, step, 500, 80)) << "the flight's own pace";
+  EXPECT_FALSE(is_cut(camera, step, std::numeric_limits<double>::infinity(), 0));
+}
+
+TEST(Cuts, MedianStepIsTheNearestRank) {
+  std::vector<Camera> flight;
+  for (const double y : {0.0, 1.0, 3.0, 103.0, 107.0})
+    flight.push_back(make_camera({0, y, 0}, {0, 1e4, 0}, 60, 64, 48));
+  EXPECT_EQ(median_step_m(flight), 2);  // of 1, 2, 4, 100
+  EXPECT_EQ(median_step_m(std::span(flight).first(1)), 0);
 }
 
 TEST(Cuts, ATurnBeyondThePicturesWidthIsOne) {
@@ -101,9 +116,9 @@ TEST(Cuts, ATurnBeyondThePicturesWidthIsOne) {
     const double angle = degrees * kPi / 180;
     return make_camera({0, 0, 0}, {exact_sin(angle), exact_cos(angle), 0}, 60, 640, 360);
   };
-  EXPECT_FALSE(is_cut(turned(0), turned(91), 1e9));
-  EXPECT_TRUE(is_cut(turned(0), turned(92), 1e9));
-  EXPECT_FALSE(is_cut(turned(0), turned(0), 1e9));
+  EXPECT_FALSE(is_cut(turned(0), turned(91), 1e9, 0));
+  EXPECT_TRUE(is_cut(turned(0), turned(92), 1e9, 0));
+  EXPECT_FALSE(is_cut(turned(0), turned(0), 1e9, 0));
 }
 
 TEST(Recovery, CountsTheFramesUntilGood) {

@@ -189,6 +189,27 @@ TEST(Gates, LimitOnWhatNothingWasMeasuredForDoesNotHold) {
   EXPECT_TRUE(std::isnan(judged[0].value));
 }
 
+TEST(Gates, AFigureAboutCutsAsksTheFlightsThatHaveThem) {
+  GateSpec gate;
+  gate.figure = "stability.lag_frames";
+  gate.comparison = "<=";
+  gate.bound = 3;
+  gate.text = "stability.lag_frames <= 3";
+  verdict::RunVerdict calm = run_with("full", 1, 0);
+  verdict::RunVerdict cut = run_with("full", 1, 0);
+  cut.summary.stability.cuts = 1;
+  cut.summary.stability.lag_frames = 5;
+  const auto judged = judge_gates({gate}, {calm, cut});
+  ASSERT_EQ(judged.size(), 1u);
+  EXPECT_EQ(judged[0].value, 5);
+  EXPECT_FALSE(judged[0].pass);
+
+  const auto vacuous = judge_gates({gate}, {calm});
+  ASSERT_EQ(vacuous.size(), 1u);
+  EXPECT_TRUE(std::isnan(vacuous[0].value));
+  EXPECT_FALSE(vacuous[0].pass) << "no flight was asked: that is no pass";
+}
+
 TEST(Vacuous, OneLevelOnEachOfTwoTerrainsIsAFailure) {
   std::vector<verdict::RunVerdict> runs{
       run_with("restricted_quadtree", 1, 0), run_with("restricted_quadtree", 8, 0),

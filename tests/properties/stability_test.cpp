@@ -27,6 +27,8 @@ Terrain hills() {
 /// Draws every `step`-th sample of a terrain whose side is 9.
 void draw_grid(const Terrain& terrain, int step, LodFrame& frame) {
   frame.clear();
+  frame.domain = full_domain(terrain);
+  if (step == 0) return;  // nothing at all
   const int across = (kSide - 1) / step + 1;
   for (int j = 0; j < kSide; j += step) {
     for (int i = 0; i < kSide; i += step) {
@@ -42,7 +44,6 @@ void draw_grid(const Terrain& terrain, int step, LodFrame& frame) {
       frame.mesh.triangles.push_back({a, a + up + 1, a + up});
     }
   }
-  frame.domain = full_domain(terrain);
 }
 
 /// `step(camera, frame)`: what a method draws in its how manieth frame.
@@ -87,6 +88,7 @@ verdict::StabilitySummary fly(const Scripted::Step& step, double threshold_px = 
     FrameScene scene;
     scene.index = f;
     scene.camera = make_camera({x, -60, 70}, {40, 40, 0}, 60, 64, 48);
+    scene.mean_depth_m = 80;
     scene.cut = f == kCut;
     scene.comes_again = f == 0;
     scene.first_visit = last ? 0 : -1;
@@ -119,6 +121,7 @@ TEST(StabilityInFlight, AFlickeringMethodToggles) {
   EXPECT_EQ(all.toggles, 6U * 56);
   EXPECT_GT(all.path_share, 0.5);
   EXPECT_GT(all.path_px, 0);
+  EXPECT_EQ(all.jitter_vertices, 0U) << "it changes without any jitter";
 }
 
 TEST(StabilityInFlight, AMethodThatFollowsTheCameraIsNoneOfIt) {
@@ -150,6 +153,14 @@ TEST(StabilityInFlight, AMethodThatNeverComesBackIsUnrecovered) {
   EXPECT_GT(all.revisit_share, 0.9);  // 4 corners of 81 samples are left
 }
 
+TEST(StabilityInFlight, DrawingNothingIsNoRecovery) {
+  const verdict::StabilitySummary all =
+      fly([](const Camera&, int frame) { return frame >= 3 ? 0 : 1; }, 1e-6);
+  EXPECT_EQ(all.recovery_frames, 5);
+  EXPECT_EQ(all.unrecovered, 1U);
+  EXPECT_EQ(all.unsettled, 1U);
+}
+
 TEST(StabilityInFlight, AMethodAboveTauAllTheTimeIsUnrecoveredButSettled) {
   const verdict::StabilitySummary all = fly([](const Camera&, int) { return 8; }, 1e-6);
   EXPECT_EQ(all.unrecovered, 1U);
@@ -158,16 +169,21 @@ TEST(StabilityInFlight, AMethodAboveTauAllTheTimeIsUnrecoveredButSettled) {
 }
 
 TEST(StabilityInFlight, AMethodOnTheEdgeTremblesUnderAHundredthOfAPixel) {
-  // Decides by bits of the view direction that any turn changes.
-  const auto nervous = [](const Camera& camera, int) {
-    static const double ahead = make_camera({0, -60, 70}, {40, 40, 0}, 60, 64, 48).forward.x;
-    return camera.position.x == 0 && camera.forward.x > ahead ? 2 : 1;
+  // Decided by bits of the place, or of the direction, that any move, or any turn, changes.
+  const Camera first = make_camera({0, -60, 70}, {40, 40, 0}, 60, 64, 48);
+  const auto by_direction = [&](const Camera& camera, int) {
+    return camera.position.x < 0.25 && camera.forward.x > first.forward.x ? 2 : 1;
   };
-  const verdict::StabilitySummary all = fly(nervous);
-  EXPECT_EQ(all.jitter_vertices, 56U);
-  EXPECT_GT(all.jitter_px, 0);
-  EXPECT_EQ(all.path_share, 0);
-  EXPECT_EQ(all.toggles, 0U);
+  const auto by_place = [](const Camera& camera, int) {
+    return camera.position.x > 0 && camera.position.x < 0.25 ? 2 : 1;
+  };
+  for (const Scripted::Step& nervous : {Scripted::Step(by_direction), Scripted::Step(by_place)}) {
+    const verdict::StabilitySummary all = fly(nervous);
+    EXPECT_EQ(all.jitter_vertices, 56U);
+    EXPECT_GT(all.jitter_px, 0);
+    EXPECT_EQ(all.path_share, 0);
+    EXPECT_EQ(all.toggles, 0U);
+  }
 }
 
 }  // namespace
