@@ -15,14 +15,14 @@ namespace plumbline {
 
 /// What a method promises; laws and oracles hold it to these, and list the others as "not promised".
 enum class Promise {
-  conforming,        ///< no point covered twice, edge to edge, at equal heights, no hole inside
-  covers_domain,     ///< reaches the outline of the domain that each frame promises, and not beyond
-  monotone_in_tau,   ///< a larger threshold never gives more triangles on the same promised domain
-  idempotent,        ///< a second update with the same camera changes nothing
-  path_independent,  ///< the mesh depends on the camera, not on the flight before it
-  exact_at_zero,     ///< at a vanishing threshold every sample is met
-  symmetric,         ///< commutes with the eight symmetries of the grid
-  threshold_blind,   ///< ignores the threshold (one run serves all)
+  conforming,               ///< no point covered twice, edge to edge, at equal heights, no hole inside
+  covers_domain,            ///< reaches the outline of the domain that each frame promises, and not beyond
+  monotone_in_tau,          ///< a larger threshold never gives more triangles on the same promised domain
+  idempotent,               ///< a second update with the same camera changes nothing
+  path_independent,         ///< the mesh depends on the camera, not on the flight before it
+  exact_at_zero,            ///< at a vanishing threshold every sample is met
+  symmetric,                ///< commutes with the eight symmetries of the grid
+  threshold_blind,          ///< ignores the threshold (one run serves all)
   screen_error_within_tau,  ///< no point of the picture is displaced by more than the threshold
   continuous_in_camera,     ///< while the camera stands still, merging changes nothing visible
 };
