@@ -10,6 +10,7 @@
 #include <rapidcheck.h>
 
 #include "properties/laws/generators.h"
+#include "properties/laws/trial.h"
 #include "scenarios/error.h"
 
 namespace plumbline::properties {
@@ -141,6 +142,7 @@ void simpler_heights(const LawInput& input, Candidates& candidates) {
     candidates.try_change([&](LawInput& simpler) {
       const double scale = 1 / simpler.terrain.spacing_m;
       simpler.terrain.spacing_m = 1;
+      scale_lengths(simpler, scale);
       for (double& z : simpler.terrain.heights_m) z = make_whole ? std::round(z * scale) : z * scale;
       for (CameraPose& pose : simpler.poses) {
         pose = {pose.position * scale, pose.look_at * scale};
