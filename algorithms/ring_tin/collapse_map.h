@@ -110,9 +110,9 @@ class CollapseMap {
   std::vector<std::uint8_t> turned_;  ///< by edge: which end (0, 1) is the start
   std::vector<std::uint32_t> removed_by_;
   std::vector<std::uint8_t> on_road_;
-  std::vector<std::uint8_t> road_fixed_;  ///< road ends and junctions never move
-  std::uint64_t clock_ = 0;               ///< counts collapses and resets
-  std::vector<std::uint64_t> priced_at_;  ///< by edge
+  std::vector<std::uint8_t> road_fixed_;   ///< road ends and junctions never move
+  std::uint64_t clock_ = 0;                ///< counts collapses and resets
+  std::vector<std::uint64_t> priced_at_;   ///< by edge
   std::vector<std::uint64_t> changed_at_;  ///< by live vertex
   std::vector<std::uint32_t> changed_;
   std::uint64_t evaluated_ = 0;

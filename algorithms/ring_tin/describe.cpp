@@ -35,9 +35,10 @@ std::vector<double> read_list(const std::string& name, const std::string& text) 
     double number = 0;
     const auto [rest, error] = std::from_chars(at, end, number);
     if (error != std::errc() || !std::isfinite(number) || number < 0) {
-      throw InputError(fmt::format(
-          "ring_tin: option {} = \"{}\" is no list of finite numbers, none below 0; give e.g. \"100 250 500\"",
-          name, text));
+      throw InputError(
+          fmt::format("ring_tin: option {} = \"{}\" is no list of finite numbers, none below 0; give e.g. "
+                      "\"100 250 500\"",
+                      name, text));
     }
     numbers.push_back(number);
     at = rest;
@@ -85,12 +86,10 @@ Settings read_settings(std::string_view variant, const Options& options) {
         "ring_tin: option focal_px = {} is below 0 or not finite; 0 takes the camera's", s.focal_px));
   }
   if (!(s.points.share >= 0 && s.points.share <= 1)) {
-    throw InputError(
-        fmt::format("ring_tin: option point_share = {} is not inside [0, 1]", s.points.share));
+    throw InputError(fmt::format("ring_tin: option point_share = {} is not inside [0, 1]", s.points.share));
   }
   if (!(seed >= 0 && seed <= 0x1p53) || seed != std::floor(seed)) {
-    throw InputError(
-        fmt::format("ring_tin: option point_seed = {} is no whole number from 0 to 2^53", seed));
+    throw InputError(fmt::format("ring_tin: option point_seed = {} is no whole number from 0 to 2^53", seed));
   }
   s.points.seed = static_cast<std::uint64_t>(seed);
   return s;
@@ -111,13 +110,13 @@ MethodDescription describe_ring_tin() {
           {
               {"",
                "as published: one scan by edge index; a reset restores exactly its tree",
-               {conforming, idempotent}},
+               {conforming, covers_domain, idempotent}},
               {"fixpoint",
                "collapses by rising error, then index, until no edge qualifies",
-               {conforming, idempotent}},
+               {conforming, covers_domain, idempotent}},
               {"guarded",
                "no collapse turns a triangle over; a reset takes along the trees that it would fold",
-               {conforming, idempotent}},
+               {conforming, covers_domain, idempotent}},
           },
       .options =
           {
@@ -135,7 +134,8 @@ MethodDescription describe_ring_tin() {
           },
       .claims =
           {
-              {"M2.C1", "nearer is finer: triangles per area never rise from ring to ring on uniform terrain"},
+              {"M2.C1",
+               "nearer is finer: triangles per area never rise from ring to ring on uniform terrain"},
               {"M2.C2", "turning on the spot changes nothing; a step changes trees at ring borders (8 %)"},
               {"M2.C3", "screen error at most delta_i"},
               {"M2.C4", "no crossing, overlapping or sliver triangles"},

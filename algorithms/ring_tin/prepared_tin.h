@@ -46,8 +46,8 @@ std::uint64_t fingerprint(const Terrain& terrain, const PointChoice& points);
 /// edge (a, b, road, error_m, start), and `source` with the fingerprint. Throws InputError if it cannot.
 void store(const std::filesystem::path& path, const PreparedTin& prepared, std::uint64_t source);
 
-/// Opens what `store` wrote: the same doubles, bit for bit. Throws InputError, one line, for a file that is no
-/// such database, is damaged, or was prepared from another source.
+/// Opens what `store` wrote: the same doubles, bit for bit. Throws InputError, one line, for a file that is
+/// no such database, is damaged, or was prepared from another source.
 PreparedTin open_stored(const std::filesystem::path& path, std::uint64_t source, PlanDomain covered);
 
 }  // namespace plumbline::ring_tin

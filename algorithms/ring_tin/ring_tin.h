@@ -34,7 +34,8 @@ struct Statistics {
   std::uint64_t vertices_reset = 0;  ///< restored with them
   std::uint64_t collapses = 0;
   std::uint64_t candidates = 0;  ///< edges that were scanned
-  std::uint64_t qualifying = 0;  ///< of these: active, Δh below the tolerance, no border triangle at the start
+  std::uint64_t qualifying =
+      0;  ///< of these: active, Δh below the tolerance, no border triangle at the start
   std::uint64_t refused_depth = 0, refused_road = 0, refused_fold = 0;  ///< of the qualifying
 };
 
@@ -69,8 +70,8 @@ class RingTin final : public LodMethod {
   struct Flight {
     CollapseMap map;
     VertexLevels levels;
-    Rings rings;                       ///< of the last frame
-    std::vector<double> tolerances_m;  ///< of the last frame
+    Rings rings;                        ///< of the last frame
+    std::vector<double> tolerances_m;   ///< of the last frame
     std::vector<std::uint8_t> touched;  ///< by vertex: its ring changed, or its tree was reset, in this frame
     Statistics statistics;
     Flight(const PreparedTin& prepared, int depth_cap);

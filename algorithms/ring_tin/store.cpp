@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where SQLite enters (§4 of the paper: topology and errors are computed once and kept in a database). The one
-// place in a method that touches a file: the paper's preparation is defined by being kept.
+// Where SQLite enters (§4 of the paper: topology and errors are computed once and kept in a database). The
+// one place in a method that touches a file: the paper's preparation is defined by being kept.
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -72,8 +72,8 @@ class Statement {
     return static_cast<std::uint32_t>(value);
   }
   [[noreturn]] void damaged() const {
-    throw InputError(fmt::format(
-        "{}: a damaged database of a prepared TIN; delete it, and it will be made anew", file_));
+    throw InputError(
+        fmt::format("{}: a damaged database of a prepared TIN; delete it, and it will be made anew", file_));
   }
 
  private:
@@ -182,9 +182,8 @@ PreparedTin open_stored(const std::filesystem::path& path, std::uint64_t source,
   const std::string name = path.string();
   if (header(db.get(), "PRAGMA application_id", path) != kApplicationId ||
       header(db.get(), "PRAGMA user_version", path) != kLayout) {
-    throw InputError(
-        fmt::format("{}: not a database of a prepared TIN; name another file, or one that is not there yet",
-                    name));
+    throw InputError(fmt::format(
+        "{}: not a database of a prepared TIN; name another file, or one that is not there yet", name));
   }
   Statement origin(db.get(), "SELECT fingerprint, content FROM source", name);
   if (!origin.next()) origin.damaged();
@@ -215,7 +214,9 @@ PreparedTin open_stored(const std::filesystem::path& path, std::uint64_t source,
   }
   // What was written was sound, so bytes that still sum up to the same are sound too.
   if (as_signed(content(network, prices)) != content_then) edge.damaged();
-  return {std::move(network), std::move(covered), std::move(prices)};
+  PreparedTin prepared(std::move(network), std::move(covered), std::move(prices));
+  if (prepared.prices.error_m.size() != prepared.adjacency.edges().size()) edge.damaged();
+  return prepared;
 }
 
 }  // namespace plumbline::ring_tin

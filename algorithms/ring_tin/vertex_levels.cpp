@@ -78,8 +78,7 @@ std::uint64_t VertexLevels::move(Vec2 viewpoint, const Rings& rings, std::vector
     const PlanCells::Cell& cell = cells_.cells[c];
     const Span span = distances(viewpoint, cell.low, cell.high);
     const int level = rings.level_at(span.nearest);
-    const auto uniform =
-        level == rings.level_at(span.farthest) ? static_cast<std::int16_t>(level) : kMixed;
+    const auto uniform = level == rings.level_at(span.farthest) ? static_cast<std::int16_t>(level) : kMixed;
     if (uniform != kMixed && uniform == uniform_[c]) continue;
     uniform_[c] = uniform;
     for (std::uint32_t k = cell.first; k < cell.end; ++k) {

@@ -36,8 +36,8 @@ class VertexLevels {
  private:
   const PlanCells& cells_;
   const std::vector<Vec3>& positions_;
-  std::vector<std::uint8_t> level_;      ///< by vertex; all 0 before the first frame
-  std::vector<std::int16_t> uniform_;    ///< by cell: the level of all its vertices, or kMixed
+  std::vector<std::uint8_t> level_;    ///< by vertex; all 0 before the first frame
+  std::vector<std::int16_t> uniform_;  ///< by cell: the level of all its vertices, or kMixed
   static constexpr std::int16_t kMixed = -1;
 };
 

@@ -24,9 +24,9 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 // Crossing roads would need a new point with a height nobody gave: refused instead.
 using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Point = Kernel::Point_2;
-
 
 Point in_plan(Vec3 p) { return {p.x, p.y}; }
 
@@ -91,8 +91,8 @@ Tin delaunay_tin(std::span<const Vec3> points, std::span<const std::vector<Vec3>
     }
   }
   if (out.mesh.positions.size() < 3) {
-    throw InputError(fmt::format("TIN: {} points make no triangle; give at least three",
-                                 out.mesh.positions.size()));
+    throw InputError(
+        fmt::format("TIN: {} points make no triangle; give at least three", out.mesh.positions.size()));
   }
 
   std::vector<std::pair<Point, std::uint32_t>> numbered;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Cost of M2's coherent frame on the paper's largest TIN (132 849 triangles, 10 m apart) when the viewer steps
-// 1 m: against simplifying the same TIN from scratch at the same place (a first frame), in the same run. Of
-// each frame the time is that of `update`, with the writing of its mesh; the share of that is shown too.
-// Forward along the grid, whole columns change rings every tenth step; along a slanted way they do so bit by
-// bit.
+// Cost of M2's coherent frame on the paper's largest TIN (132 849 triangles, 10 m apart) when the viewer
+// steps 1 m: against simplifying the same TIN from scratch at the same place (a first frame), in the same
+// run. Of each frame the time is that of `update`, with the writing of its mesh; the share of that is shown
+// too. Forward along the grid, whole columns change rings every tenth step; along a slanted way they do so
+// bit by bit.
 // --brief: few frames.
 #include <algorithm>
 #include <numeric>
@@ -48,10 +48,11 @@ void run(ring_tin::Variant variant, const char* name, const m2::TrimmedTin& t, d
   const double from_scratch = median(scratch_s);
   const double mean = std::accumulate(step_s.begin(), step_s.end(), 0.0) / frames;
   const double worst = *std::max_element(step_s.begin(), step_s.end());
-  fmt::print("{:<10}{:>8.0f}{:>10}{:>11.1f}{:>12.1f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8.2f}{:>8.2f}{:>9.1f}{:>9.1f}\n",
-             name, relief_m, frame.mesh.triangles.size(), prepare_s * 1e3, from_scratch * 1e3, mean * 1e3,
-             worst * 1e3, median(still_s) * 1e3, 100 * mean / from_scratch, 100 * worst / from_scratch,
-             static_cast<double>(changed) / frames, static_cast<double>(reset) / frames);
+  fmt::print(
+      "{:<10}{:>8.0f}{:>10}{:>11.1f}{:>12.1f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8.2f}{:>8.2f}{:>9.1f}{:>9.1f}\n",
+      name, relief_m, frame.mesh.triangles.size(), prepare_s * 1e3, from_scratch * 1e3, mean * 1e3,
+      worst * 1e3, median(still_s) * 1e3, 100 * mean / from_scratch, 100 * worst / from_scratch,
+      static_cast<double>(changed) / frames, static_cast<double>(reset) / frames);
 }
 
 }  // namespace

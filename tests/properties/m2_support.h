@@ -22,7 +22,7 @@ inline constexpr double kSpacingM = 10;  ///< §4 of the paper
 
 /// One row of the paper's Table 2.
 struct PointSet {
-  int columns, rows;     ///< of regular points, before trimming
+  int columns, rows;      ///< of regular points, before trimming
   std::size_t triangles;  ///< full TIN, as published
   std::size_t remain;     ///< after simplification, as published
   int levels;
@@ -57,7 +57,8 @@ struct TrimmedTin {
 inline TrimmedTin trimmed_tin(const Terrain& terrain, const PointSet& set) {
   const int i0 = (terrain.columns - set.columns) / 2;
   const int j0 = (terrain.rows - set.rows) / 2;
-  const std::size_t full = 2 * static_cast<std::size_t>(set.columns - 1) * static_cast<std::size_t>(set.rows - 1);
+  const std::size_t full =
+      2 * static_cast<std::size_t>(set.columns - 1) * static_cast<std::size_t>(set.rows - 1);
   const std::size_t surplus = full - set.triangles;
   std::vector<Vec3> points, outline;
   for (int j = 0; j < set.rows; ++j) {
