@@ -101,7 +101,8 @@ void smaller_terrains(const LawInput& input, Candidates& candidates) {
     for (int side = 3; side <= longest; ++side) {
       int cells = side - 1;
       while (cells % 2 == 0) cells /= 2;
-      if (cells <= 3) result.push_back(side);
+      // One less than now, for methods that take any size.
+      if (cells <= 3 || side + 1 == longest) result.push_back(side);
     }
     return result;
   };
