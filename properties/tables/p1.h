@@ -16,10 +16,11 @@ struct P1Settings {
   std::vector<PointSet> sets = kP1Sets;  ///< the first is fitted to
 };
 
-/// A trial a variant: the viewer stands in the middle in all.
+/// A trial a reading of the method: the viewer stands in the middle in all.
 struct P1View {
   std::string name;
   ring_tin::Variant variant;
+  int depth_cap = 6;
 };
 const std::vector<P1View>& p1_views();
 /// The table with the paper's figures, and no trial yet.
