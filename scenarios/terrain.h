@@ -46,7 +46,7 @@ struct Terrain {
 /// triangles a cell, south-east one first, cells in row-major order.
 Mesh reference_mesh(const Terrain& terrain);
 
-/// The south-west `columns` × `rows` samples. Requires: 2 ≤ columns, rows ≤ the terrain's.
+/// The south-west `columns` × `rows` samples, without the roads. Requires: 2 ≤ columns, rows ≤ the terrain's.
 Terrain cropped(const Terrain& terrain, int columns, int rows);
 
 /// The rectangle of all samples.
