@@ -62,7 +62,7 @@ void refuse(const TomlTable& table, std::initializer_list<const char*> keys, std
 
 TerrainSource read_terrain_source(const TomlTable& table, const std::filesystem::path& folder) {
   table.allow_only({"id", "file", "generator", "samples", "seed", "size", "spacing_m", "relief_m", "z_scale",
-                    "holes", "fit"});
+                    "holes", "fit", "constraints"});
   TerrainSource source;
   source.id = table.at("id").text();
   const TomlValue* file = table.find("file");
@@ -115,6 +115,12 @@ TerrainSource read_terrain_source(const TomlTable& table, const std::filesystem:
     if (source.fit == FitRule::crop && source.spacing_m && file != nullptr) {
       table.at("spacing_m").fail("contradicts fit = \"crop\", which keeps the raster's own; leave one out");
     }
+  }
+  if (const TomlValue* constraints = table.find("constraints")) {
+    if (constraints->text().empty())
+      constraints->fail("is empty; give a file of road polylines, or \"generated\"");
+    source.generated_roads = constraints->text() == "generated";
+    if (!source.generated_roads) source.constraints = (folder / constraints->text()).lexically_normal();
   }
   return source;
 }

@@ -23,6 +23,8 @@ struct Terrain {
   int rows = 0;
   double spacing_m = 1;
   std::vector<double> heights_m;  ///< row-major, row j = 0 southmost: heights_m[j * columns + i]
+  /// Road polylines: corners in plan, metres; on the ground. Only methods on TINs look at them.
+  std::vector<std::vector<Vec2>> roads;
 
   [[nodiscard]] std::size_t index(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i);
@@ -44,7 +46,7 @@ struct Terrain {
 /// triangles a cell, south-east one first, cells in row-major order.
 Mesh reference_mesh(const Terrain& terrain);
 
-/// The south-west `columns` × `rows` samples. Requires: 2 ≤ columns, rows ≤ the terrain's.
+/// The south-west `columns` × `rows` samples, without the roads. Requires: 2 ≤ columns, rows ≤ the terrain's.
 Terrain cropped(const Terrain& terrain, int columns, int rows);
 
 /// The rectangle of all samples.

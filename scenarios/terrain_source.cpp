@@ -15,6 +15,7 @@
 #include "scenarios/local_frame.h"
 #include "scenarios/portable_math.h"
 #include "scenarios/raster_reader.h"
+#include "scenarios/roads.h"
 
 namespace plumbline {
 namespace {
@@ -307,6 +308,8 @@ Terrain load_terrain(const TerrainSource& source) {
              fmt::format("holds a height of {} m; declare the raster's no-data value or mend z_scale", z));
     }
   }
+  if (!source.constraints.empty()) terrain.roads = load_roads(source.constraints, terrain, source.id);
+  if (source.generated_roads) terrain.roads = generate_roads(terrain, source.seed);
   return terrain;
 }
 

@@ -50,6 +50,8 @@ struct TerrainSource {
   double z_scale = 1;              ///< heights are multiplied by this after loading
   HolePolicy holes = HolePolicy::refuse;
   FitRule fit = FitRule::resample;
+  std::filesystem::path constraints;  ///< file of road polylines (roads.h); empty: none
+  bool generated_roads = false;       ///< instead: a network of the terrain's seed
 };
 
 /// Reads or generates a terrain; the same bytes on every machine.

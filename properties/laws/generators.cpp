@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <rapidcheck.h>
 
 #include "scenarios/error.h"
@@ -79,6 +80,28 @@ void draw_options(Draw& draw, const MethodDescription& method, const Extent& ext
       options[option.name] = draw.one_of<double>({1, 4, 7, 16, 40});
     if (option.name == "cull" && draw.chance(30)) options[option.name] = false;
   }
+}
+
+/// Rings of a few cells: the paper's are wider than a drawn terrain, which would lie in the finest one. Drawn
+/// after the spacing, of which they are multiples.
+void draw_rings(Draw& draw, const MethodDescription& method, double spacing_m, Options& options) {
+  const bool has_rings = std::any_of(method.options.begin(), method.options.end(),
+                                     [](const OptionDescription& o) { return o.name == "rings_m"; });
+  if (!has_rings) return;
+  struct Choice {
+    std::vector<double> cells;
+    const char* delta_px;
+  };
+  static const std::vector<Choice> kChoices{
+      {{0.5, 1.5}, "0 1"}, {{0.5, 2, 4}, "0 1 1.2"}, {{1, 3}, "0.5 1"}, {{0.5, 8}, "0 1"}, {{1}, "1"}};
+  const Choice choice = draw.one_of(kChoices);
+  std::string rings;
+  for (const double cells : choice.cells) {
+    rings += fmt::format("{}{}", rings.empty() ? "" : " ", cells * spacing_m);
+  }
+  options["rings_m"] = rings;
+  options["delta_px"] = std::string(choice.delta_px);
+  if (draw.chance(20)) options["depth_cap"] = draw.one_of<double>({2, 4, 5, 10});
 }
 
 struct Grid {
@@ -245,6 +268,7 @@ DrawnCase draw_whole_case(const std::string& method_id, const rc::Random& random
   drawn.terrain_shape = draw.chance(25) ? "bump_on_ramp" : draw.one_of(terrain_shapes());
   draw_heights(draw, drawn.terrain_shape, grid);
   input.terrain = std::move(grid.terrain);
+  draw_rings(draw, *choice.method, input.terrain.spacing_m, input.options);
 
   draw_picture(draw, input);
   const int poses = draw.one_of<int>({1, 2, 2, 3, 4});

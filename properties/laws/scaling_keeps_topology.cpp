@@ -4,7 +4,7 @@
 // Law: for every terrain, flight and threshold, the scene made twice as large (spacing, heights, cameras)
 // gives the same topology, and coordinates doubled exactly. Perspective knows no unit of length, and a factor
 // of two moves no bit of a mantissa. Source: ORACLES, "Invariance"; holds for methods whose constants are all
-// dimensionless.
+// dimensionless, or lengths that are doubled too (the rings of M2).
 
 #include <fmt/format.h>
 
@@ -15,6 +15,7 @@ namespace {
 
 LawInput doubled(const LawInput& input) {
   LawInput twice = input;
+  scale_lengths(twice, 2);
   twice.terrain.spacing_m *= 2;
   for (double& z : twice.terrain.heights_m) z *= 2;
   for (CameraPose& pose : twice.poses) pose = {pose.position * 2, pose.look_at * 2};
@@ -52,7 +53,7 @@ Law law_scaling_keeps_topology() {
           "doubled coordinates",
       .source = "ORACLES, Invariance",
       .applies = [](const MethodChoice&) { return true; },
-      // No method states it, since none has a length among its constants; so it is held against all of them.
+      // No method states it; it is held against all of them.
       .promised = [](const MethodChoice&) { return true; },
       .check = check};
 }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -53,6 +54,23 @@ LodFrame fly(LodMethod& method, std::span<const Camera> flight) {
   LodFrame frame;
   for (const Camera& camera : flight) method.update(camera, frame);
   return frame;
+}
+
+void scale_lengths(LawInput& input, double scale) {
+  for (auto& road : input.terrain.roads) {
+    for (Vec2& p : road) p = p * scale;
+  }
+  if (input.make) return;
+  for (const OptionDescription& option : find_method(input.method).method->options) {
+    if (option.name != "rings_m") continue;
+    std::istringstream words(
+        option_text(input.options, option.name, std::get<std::string>(option.default_value)));
+    std::string scaled;
+    for (double length_m = 0; words >> length_m;) {
+      scaled += fmt::format("{}{}", scaled.empty() ? "" : " ", length_m * scale);
+    }
+    input.options[option.name] = scaled;
+  }
 }
 
 std::string first_difference(const LodFrame& a, const LodFrame& b) {

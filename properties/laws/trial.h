@@ -26,6 +26,10 @@ Camera judged_camera(const LawInput& input);
 /// The frame of the last of `flight`, after all the others.
 LodFrame fly(LodMethod& method, std::span<const Camera> flight);
 
+/// For a scene that is scaled: options of the input's method that are lengths on the ground go along (rings,
+/// given or by default), and so do roads.
+void scale_lengths(LawInput& input, double scale);
+
 /// What differs first between two frames: mesh, vertex keys and domain, compared bit by bit. Empty: nothing.
 /// Counters are not compared: the second update of a method with memory does less work.
 std::string first_difference(const LodFrame& a, const LodFrame& b);

@@ -148,6 +148,8 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
                       settings.p0.more_stand_ins.end());
   std::vector<Sheet> sheets;
   if (asked("P0")) sheets.emplace_back(p0_table(settings.picture), p0_stand_ins.size(), p0_views().size());
+  const std::size_t p1 = sheets.size();
+  if (asked("P1")) sheets.emplace_back(p1_table(settings.p1), stand_ins, p1_views().size());
   const std::size_t p2 = sheets.size();
   if (asked("P2")) {
     sheets.emplace_back(p2_table1(settings.p2, settings.picture), stand_ins, p2_views().size());
@@ -160,6 +162,12 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
     small.push_back({sheets.data(), &p0_stand_ins, settings.p0.size,
                      [&](const Table& t, const Terrain& terrain, std::size_t v) {
                        return p0_trial(t, settings.p0, terrain, p0_views()[v], workshop);
+                     }});
+  }
+  if (asked("P1")) {
+    small.push_back({&sheets[p1], &settings.stand_ins, settings.p1.size,
+                     [&](const Table& t, const Terrain& terrain, std::size_t v) {
+                       return p1_trial(t, settings.p1, terrain, p1_views()[v], workshop);
                      }});
   }
   if (asked("P2")) {
@@ -191,6 +199,7 @@ std::size_t steps_of(const std::vector<std::string>& papers, const TableSettings
   for (const std::string& paper : papers) {
     if (paper == "P0")
       steps += (stand_ins + settings.p0.more_stand_ins.size()) * p0_views().size() * kP0Steps;
+    if (paper == "P1") steps += stand_ins * p1_views().size() * p1_steps(settings.p1);
     if (paper == "P2") steps += stand_ins * (p2_views().size() * kP2Table1Steps + kP2Table2Steps);
   }
   return steps;
@@ -223,6 +232,8 @@ TableSettings published_settings(const std::filesystem::path& real_terrain) {
 const std::vector<ReproducedPaper>& reproduced_papers() {
   static const std::vector<ReproducedPaper> papers{
       {"P0", "triangles of ATL (haar_quadtree) beside QUADTin's, figures 6 to 8", "TABLES P0, M1"},
+      {"P1", "triangles that ring_tin leaves of four point sets, and its tolerances, tables 1 and 2",
+       "TABLES P1, M2"},
       {"P2", "isolated division at three thresholds, and along a retreat, tables 1 and 2", "TABLES P2, M3"},
   };
   return papers;

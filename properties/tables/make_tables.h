@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "properties/tables/p0.h"
+#include "properties/tables/p1.h"
 #include "properties/tables/p2.h"
 #include "properties/tables/stage.h"
 #include "properties/verdict/paper_table.h"
@@ -20,6 +21,7 @@ struct TableSettings {
   Picture picture;
   std::vector<StandInSource> stand_ins;
   P0Settings p0;
+  P1Settings p1;
   P2Settings p2;
 };
 
