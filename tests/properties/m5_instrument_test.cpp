@@ -242,6 +242,44 @@ TEST(M5Instrument, OutOfTheViewConeNothingMovesAndObjectsKeepTheirOwnLadders) {
   EXPECT_EQ(frame.vertex_keys.size(), frame.mesh.positions.size());
 }
 
+TEST(M5Terrain, M5_S1_TrianglesTurnOverInPlanOnSteepGroundOnly) {
+  // Steepness: the greatest height over the spacing. Building judges normals in space, one step at a time.
+  for (const double steep : {0.3, 3.0}) {
+    std::size_t folded = 0, meshes = 0, triangles = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+      Random random(seed);
+      Terrain terrain{"random", 9, 9, 1.0, {}};
+      for (int k = 0; k < 81; ++k) terrain.heights_m.push_back(steep * random.unit());
+      VertexTreeMethod method({{}, ContourRule::none});
+      method.prepare(terrain);
+      method.set_threshold_px(1e9);
+      LodFrame frame;
+      method.update(make_camera({4, -40, 9}, {4, 4, 0}, 60, kSide, kSide), frame);
+      std::size_t here = 0;
+      double area2 = 0;
+      for (const auto& t : frame.mesh.triangles) {
+        const Vec3 a = frame.mesh.positions[t[0]], b = frame.mesh.positions[t[1]],
+                   c = frame.mesh.positions[t[2]];
+        const double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        area2 += twice;
+        here += twice <= 0 ? 1 : 0;
+      }
+      EXPECT_NEAR(area2, 128, 1e-9) << "m2: the border keeps the plan region, sums of a few hundred terms";
+      folded += here;
+      meshes += here > 0 ? 1 : 0;
+      triangles += frame.mesh.triangles.size();
+    }
+    std::printf("heights up to %g spacings: %zu of %zu triangles turned over in plan, in %zu of 300 meshes\n",
+                steep, folded, triangles, meshes);
+    EXPECT_GT(triangles, 0u);
+    if (steep < 1) {
+      EXPECT_EQ(folded, 0u);
+    } else {
+      EXPECT_GT(folded, 0u);
+    }
+  }
+}
+
 TEST(M5Input, AMeshThatIsNotManifoldIsRefusedByItsFirstBadEdge) {
   const auto message = [](const Mesh& mesh) -> std::string {
     try {
