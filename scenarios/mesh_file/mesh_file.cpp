@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenarios/mesh_file/mesh_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "scenarios/mesh_file/scanner.h"
+
+namespace plumbline {
+namespace {
+
+double turn(Vec2 a, Vec2 b, Vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+/// The polygon in plan along the greatest axis of its normal (Newell's sum), counter-clockwise.
+std::vector<Vec2> flattened(const std::vector<Vec3>& p) {
+  Vec3 normal;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    normal = normal + cross(p[k] - p[0], p[(k + 1) % p.size()] - p[0]);
+  std::vector<Vec2> flat;
+  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+  for (const Vec3& q : p) {
+    if (z >= x && z >= y) {
+      flat.push_back(normal.z >= 0 ? Vec2{q.x, q.y} : Vec2{q.y, q.x});
+    } else if (x >= y) {
+      flat.push_back(normal.x >= 0 ? Vec2{q.y, q.z} : Vec2{q.z, q.y});
+    } else {
+      flat.push_back(normal.y >= 0 ? Vec2{q.z, q.x} : Vec2{q.x, q.z});
+    }
+  }
+  return flat;
+}
+
+void clip_ears(const std::vector<Vec2>& flat, std::vector<std::array<std::size_t, 3>>& out) {
+  std::vector<std::size_t> left(flat.size());
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
+  const auto is_ear = [&](std::size_t k) {
+    const std::size_t n = left.size(), i = left[(k + n - 1) % n], j = left[k], l = left[(k + 1) % n];
+    const Vec2 a = flat[i], b = flat[j], c = flat[l];
+    if (!(turn(a, b, c) > 0)) return false;
+    return std::none_of(left.begin(), left.end(), [&](std::size_t m) {
+      return m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 && turn(b, c, flat[m]) >= 0 &&
+             turn(c, a, flat[m]) >= 0;
+    });
+  };
+  while (left.size() > 3) {
+    std::size_t k = 0;
+    while (k < left.size() && !is_ear(k)) ++k;
+    if (k == left.size()) k = 1;  // it crosses itself or is flat: any corner goes, and the search ends
+    const std::size_t n = left.size();
+    out.push_back({left[(k + n - 1) % n], left[k], left[(k + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  out.push_back({left[0], left[1], left[2]});
+}
+
+// A corner of an ear search costs the square of the polygon; this many are still quick.
+constexpr std::size_t kLongestConcave = 4096;
+
+}  // namespace
+
+MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
+  using namespace mesh_file;
+  const auto ends_in = [&](std::string_view lower) {
+    return name.size() >= lower.size() &&
+           std::equal(
+               lower.begin(), lower.end(), name.end() - static_cast<std::ptrdiff_t>(lower.size()),
+               [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b + 32) : b); });
+  };
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
+  if (ends_in(".obj")) return parse_obj(bytes, name);
+  if (ends_in(".off") || bytes.starts_with("OFF")) return parse_off(bytes, name);
+  if (ends_in(".stl") || bytes.starts_with("solid")) {
+    // Some binary files begin with "solid" too; their size gives them away.
+    const bool text =
+        bytes.starts_with("solid") && bytes.substr(0, 1024).find("facet") != std::string_view::npos;
+    if (text || (bytes.starts_with("solid") && bytes.find("endsolid") != std::string_view::npos))
+      return parse_stl_text(bytes, name);
+    if (bytes.size() >= 84) return parse_stl_binary(bytes, name);
+  }
+  throw InputError(
+      fmt::format("{}: no mesh format that is read here; PLY, OBJ, OFF and STL are", one_line(name)));
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(fmt::format("{}: is a folder, not a mesh", one_line(path.string())));
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw InputError(fmt::format("cannot read {}: no such file, or no permission", one_line(path.string())));
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  return parse_mesh(bytes, path.string());
+}
+
+Mesh triangulate(const MeshFile& file) {
+  Mesh mesh;
+  mesh.positions = file.positions;
+  std::vector<Vec3> points;
+  std::vector<std::array<std::size_t, 3>> pieces;
+  std::size_t begin = 0;
+  for (const std::size_t end : file.ends) {
+    const std::size_t n = end - begin;
+    const std::uint32_t* corner = file.corners.data() + begin;
+    begin = end;
+    if (n < 3) continue;
+    pieces.clear();
+    points.clear();
+    for (std::size_t k = 0; k < n; ++k) points.push_back(file.positions[corner[k]]);
+    bool convex = n == 3;
+    if (!convex) {
+      const auto flat = flattened(points);
+      convex = true;
+      for (std::size_t k = 0; k < n; ++k)
+        convex = convex && turn(flat[k], flat[(k + 1) % n], flat[(k + 2) % n]) > 0;
+      if (!convex) {
+        if (n > kLongestConcave)
+          throw InputError(
+              fmt::format("a polygon that is not convex has {} corners, more than {}; triangulate it", n,
+                          kLongestConcave));
+        clip_ears(flat, pieces);
+      }
+    }
+    if (convex) {
+      for (std::size_t k = 1; k + 1 < n; ++k) pieces.push_back({0, k, k + 1});
+    }
+    for (const auto& [a, b, c] : pieces) mesh.triangles.push_back({corner[a], corner[b], corner[c]});
+  }
+  return mesh;
+}
+
+}  // namespace plumbline
