@@ -55,6 +55,7 @@ struct MethodDescription {
   std::vector<VariantDescription> variants;  ///< first: the published default, name ""
   std::vector<OptionDescription> options;
   std::vector<ClaimDescription> claims;
+  bool takes_objects = false;  ///< general meshes too (LodMethod::prepare_objects), not terrains alone
   /// `variant` is one of the names above; options are checked against `options` before the call.
   std::function<std::unique_ptr<LodMethod>(std::string_view variant, const Options& options)> make;
 };

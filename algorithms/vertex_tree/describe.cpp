@@ -63,6 +63,7 @@ MethodDescription describe_vertex_tree() {
                  {"M5.C2", "the contour keeps its shape better than without the contour rule"},
                  {"M5.C3", "86802 triangles go to 5381 without visible artefacts"},
                  {"M5.C4", "a split undoes its collapse exactly, bit for bit"}},
+      .takes_objects = true,
       .make =
           [](std::string_view variant, const Options& options) {
             return std::make_unique<vertex_tree::VertexTreeMethod>(read_settings(variant, options));

@@ -79,9 +79,9 @@ void VertexTreeMethod::prepare(const Terrain& terrain) {
   reset();
 }
 
-void VertexTreeMethod::prepare_meshes(const std::vector<Mesh>& meshes) {
+void VertexTreeMethod::prepare_objects(const std::vector<Mesh>& objects) {
   trees_.clear();
-  for (const Mesh& mesh : meshes)
+  for (const Mesh& mesh : objects)
     trees_.push_back(std::make_shared<const VertexTree>(build_tree(mesh, settings_.build)));
   domain_.clear();
   reset();

@@ -54,9 +54,9 @@ class VertexTreeMethod final : public LodMethod {
  public:
   explicit VertexTreeMethod(const Settings& settings) : settings_(settings) {}
   void prepare(const Terrain& terrain) override;
-  /// Objects instead of a terrain: any number of manifold meshes, drawn together (no plan region is
-  /// promised). A vertex's key is (object << 32) + identifier. Throws InputError as build_tree does.
-  void prepare_meshes(const std::vector<Mesh>& meshes);
+  /// Any number of manifold meshes, drawn together. A vertex's key is (object << 32) + identifier. Throws
+  /// InputError as build_tree does.
+  void prepare_objects(const std::vector<Mesh>& objects) override;
   void update(const Camera& camera, LodFrame& frame) override;
   void reset() override;
   [[nodiscard]] std::unique_ptr<LodMethod> clone() const override;

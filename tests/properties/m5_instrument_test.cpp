@@ -229,7 +229,7 @@ TEST(M5Instrument, OutOfTheViewConeNothingMovesAndObjectsKeepTheirOwnLadders) {
   VertexTreeMethod method({{}, ContourRule::none});
   Mesh far = instrument_mesh();
   for (Vec3& p : far.positions) p = p + Vec3{0, 60, 0};
-  method.prepare_meshes({instrument_mesh(), far});
+  method.prepare_objects({instrument_mesh(), far});
   method.set_threshold_px(1);
   LodFrame frame;
   method.update(make_camera({0, -4, 0}, {0, 0, 0}, 40, kSide, kSide), frame);
