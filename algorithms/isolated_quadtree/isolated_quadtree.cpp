@@ -223,14 +223,15 @@ class IsolatedQuadtree final : public LodMethod {
     vertex_[here] = theirs.vertex;
   }
 
-  /// Makes a vertex of a sample, if it is none yet.
-  void use(int i, int j) {
+  /// Makes a vertex of a sample, if it is none yet. `grain` as TileGrid::height_m has it.
+  void use(int i, int j, int grain) {
     const std::size_t here = slot(i, j);
     if (vertex_[here] != kNone) return;
     const Terrain& terrain = grid_->terrain();
     vertex_[here] = static_cast<std::uint32_t>(frame_->mesh.positions.size());
     used_.push_back(here);
-    frame_->mesh.positions.push_back(terrain.point(i, j));
+    frame_->mesh.positions.push_back(
+        {i * terrain.spacing_m, j * terrain.spacing_m, grid_->height_m(i, j, grain)});
     frame_->vertex_keys.push_back(terrain.index(i, j));
   }
   void use(Node node) {
@@ -240,13 +241,13 @@ class IsolatedQuadtree final : public LodMethod {
       for (int di = 0; di <= 2; ++di) {
         const int i = node.i + di * h;
         const int j = node.j + dj * h;
-        if (whole || grid_->has_data(i, j)) use(i, j);
+        if (whole || grid_->has_data(i, j)) use(i, j, h);
       }
     }
   }
   void use(Line border, Span announced) {
     for (std::size_t n = announced.begin; n < announced.end; ++n) {
-      use(border.i + announced_[n] * border.di, border.j + announced_[n] * border.dj);
+      use(border.i + announced_[n] * border.di, border.j + announced_[n] * border.dj, 1);
     }
   }
 
@@ -272,29 +273,33 @@ class IsolatedQuadtree final : public LodMethod {
   /// Appends the vertices on a border of the tile in hand, in order.
   Span list_border(Line border, std::vector<BorderVertex>& out) const {
     const std::size_t begin = out.size();
-    const auto append = [&](int k) {
-      const std::uint32_t vertex = vertex_[slot(border.i + k * border.di, border.j + k * border.dj)];
-      if (vertex != kNone) out.push_back({k, vertex});
-    };
-    append(0);
-    list_between(border, 0, tile_.side, append);
-    append(tile_.side);
+    const bool whole = has_data(border, 0) && has_data(border, tile_.side);
+    append(border, 0, out);
+    list_between(border, 0, tile_.side, whole, out);
+    append(border, tile_.side, out);
     return {begin, out.size()};
   }
   /// Vertices are dyadic: where a stretch's middle is none, nothing finer in it is, unless it is no-data.
-  template <class Append>
-  void list_between(Line border, int from, int to, const Append& append) const {
+  /// `whole`: there is none of that here.
+  void list_between(Line border, int from, int to, bool whole, std::vector<BorderVertex>& out) const {
     if (to - from < 2) return;
-    const auto has_data = [&](int k) {
-      return grid_->has_data(border.i + k * border.di, border.j + k * border.dj);
-    };
-    if (!has_data(from) && !has_data(to)) return;  // no-data is all beyond one of the ends
+    // No-data is all beyond one of the ends.
+    if (!whole && !has_data(border, from) && !has_data(border, to)) return;
     const int middle = (from + to) / 2;
-    const bool vertex = vertex_[slot(border.i + middle * border.di, border.j + middle * border.dj)] != kNone;
-    if (!vertex && has_data(middle)) return;
-    list_between(border, from, middle, append);
-    append(middle);
-    list_between(border, middle, to, append);
+    if (vertex(border, middle) == kNone && (whole || has_data(border, middle))) return;
+    list_between(border, from, middle, whole, out);
+    append(border, middle, out);
+    list_between(border, middle, to, whole, out);
+  }
+  void append(Line border, int k, std::vector<BorderVertex>& out) const {
+    const std::uint32_t there = vertex(border, k);
+    if (there != kNone) out.push_back({k, there});
+  }
+  [[nodiscard]] std::uint32_t vertex(Line border, int k) const {
+    return vertex_[slot(border.i + k * border.di, border.j + k * border.dj)];
+  }
+  [[nodiscard]] bool has_data(Line border, int k) const {
+    return grid_->has_data(border.i + k * border.di, border.j + k * border.dj);
   }
 
   /// The fan around the node's centre: its eight rim samples and every split point between them, once around

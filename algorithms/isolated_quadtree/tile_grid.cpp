@@ -24,10 +24,25 @@ TileGrid::TileGrid(const Terrain& terrain, int tile_side)
     records_.emplace_back(across_.back() * static_cast<std::size_t>(tiles_y_) *
                           static_cast<std::size_t>(tile_side_ / side));
   }
+  for (int grain = kCoarse; grain <= tile_side_; grain *= 2) copy_coarse(grain);
   // Every tile writes its own nodes and reads samples only, so no order can show.
   tbb::parallel_for(std::size_t{0}, tile_count(), [this](std::size_t t) {
     const auto across = static_cast<std::size_t>(tiles_x_);
     fill_tile(static_cast<int>(t % across), static_cast<int>(t / across));
+  });
+}
+
+void TileGrid::copy_coarse(int grain) {
+  const auto along = [&](int tiles) { return static_cast<std::size_t>(tiles * (tile_side_ / grain) + 1); };
+  Coarse& coarse = coarse_.emplace_back();
+  coarse.columns = along(tiles_x_);
+  coarse.heights_m.assign(coarse.columns * along(tiles_y_), 0.0);
+  tbb::parallel_for(std::size_t{0}, along(tiles_y_), [&](std::size_t row) {
+    const int j = first_row_ + static_cast<int>(row) * grain;
+    for (std::size_t column = 0; column < coarse.columns; ++column) {
+      const int i = static_cast<int>(column) * grain;
+      if (has_data(i, j)) coarse.heights_m[row * coarse.columns + column] = terrain_.z(i, j);
+    }
   });
 }
 
