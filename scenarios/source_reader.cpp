@@ -61,20 +61,25 @@ void refuse(const TomlTable& table, std::initializer_list<const char*> keys, std
 }  // namespace
 
 TerrainSource read_terrain_source(const TomlTable& table, const std::filesystem::path& folder) {
-  table.allow_only({"id", "file", "generator", "samples", "seed", "size", "spacing_m", "relief_m", "z_scale",
-                    "holes", "fit", "constraints"});
+  table.allow_only({"id", "file", "points", "generator", "samples", "seed", "size", "spacing_m", "relief_m",
+                    "z_scale", "holes", "fit", "constraints"});
   TerrainSource source;
   source.id = table.at("id").text();
   const TomlValue* file = table.find("file");
+  const TomlValue* points = table.find("points");
   const TomlValue* generator = table.find("generator");
   const TomlValue* samples = table.find("samples");
-  if ((file != nullptr) + (generator != nullptr) + (samples != nullptr) != 1) {
-    table.fail(fmt::format("{} needs exactly one of 'file', 'generator', 'samples'", table.name()));
+  if ((file != nullptr) + (points != nullptr) + (generator != nullptr) + (samples != nullptr) != 1) {
+    table.fail(fmt::format("{} needs exactly one of 'file', 'points', 'generator', 'samples'", table.name()));
   }
   if (file != nullptr) {
     if (file->text().empty()) file->fail("is empty; give a raster's path");
     source.file = (folder / file->text()).lexically_normal();
     refuse(table, {"seed", "relief_m"}, "a file");
+  } else if (points != nullptr) {
+    if (points->text().empty()) points->fail("is empty; give the path of a vector file of points");
+    source.points = (folder / points->text()).lexically_normal();
+    refuse(table, {"seed", "relief_m", "fit"}, "points");
   } else if (generator != nullptr) {
     source.generator = generator->text();
     std::vector<std::string> names;

@@ -50,7 +50,7 @@ Mesh reference_mesh(const Terrain& terrain) {
 }
 
 Terrain cropped(const Terrain& terrain, int columns, int rows) {
-  Terrain out{terrain.id, columns, rows, terrain.spacing_m, {}, {}};
+  Terrain out{terrain.id, columns, rows, terrain.spacing_m, {}, {}, {}};
   out.heights_m.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) out.heights_m.push_back(terrain.z(i, j));

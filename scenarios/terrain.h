@@ -23,6 +23,9 @@ struct Terrain {
   int rows = 0;
   double spacing_m = 1;
   std::vector<double> heights_m;  ///< row-major, row j = 0 southmost: heights_m[j * columns + i]
+  /// The surveyed points inside the rectangle, if it was read from such, in the file's order; metres. Only
+  /// methods on TINs look at them: the samples were interpolated between them.
+  std::vector<Vec3> points;
   /// Road polylines: corners in plan, metres; on the ground. Only methods on TINs look at them.
   std::vector<std::vector<Vec2>> roads;
 
@@ -46,7 +49,7 @@ struct Terrain {
 /// triangles a cell, south-east one first, cells in row-major order.
 Mesh reference_mesh(const Terrain& terrain);
 
-/// The south-west `columns` × `rows` samples, without the roads. Requires: 2 ≤ columns, rows ≤ the terrain's.
+/// The south-west `columns` × `rows` samples, without points and roads. Requires: 2 ≤ columns, rows ≤ the terrain's.
 Terrain cropped(const Terrain& terrain, int columns, int rows);
 
 /// The rectangle of all samples.

@@ -16,6 +16,7 @@
 #include "scenarios/portable_math.h"
 #include "scenarios/raster_reader.h"
 #include "scenarios/roads.h"
+#include "scenarios/scattered_points.h"
 
 namespace plumbline {
 namespace {
@@ -247,6 +248,44 @@ Terrain load_file(const TerrainSource& source) {
   return fit_geographic(source, grid, south_west, step_x, step_y, raster);
 }
 
+Terrain load_survey(const TerrainSource& source) {
+  const std::string label =
+      fmt::format("terrain '{}': {}", one_line(source.id, 80), one_line(source.points.string(), 200));
+  std::vector<Vec3> points = load_points(source.points, label);
+  Vec2 low{points.front().x, points.front().y};
+  Vec2 high = low;
+  for (const Vec3 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const Vec2 extent{high.x - low.x, high.y - low.y};
+  if (!(extent.x > 0 && extent.y > 0))
+    refuse(source, "all points stand on one line; a terrain needs an area");
+  const double mean_m = std::sqrt(extent.x * extent.y / static_cast<double>(points.size()));
+  const Layout layout = lay_out(source, extent.x, extent.y, mean_m);
+  const Vec2 south_west{(low.x + high.x) / 2 - 0.5 * (layout.columns - 1) * layout.spacing_m,
+                        (low.y + high.y) / 2 - 0.5 * (layout.rows - 1) * layout.spacing_m};
+  HeightGrid grid = grid_points(points, south_west, layout.columns, layout.rows, layout.spacing_m, label);
+  GridWindow kept{0, 0, grid.columns, grid.rows};
+  if (source.holes == HolePolicy::crop && grid.count_holes() < grid.heights_m.size()) {
+    kept = largest_window_without_holes(grid);
+  }
+  grid = without_holes(source, std::move(grid));
+  Terrain terrain;
+  terrain.columns = grid.columns;
+  terrain.rows = grid.rows;
+  terrain.spacing_m = layout.spacing_m;
+  terrain.heights_m = std::move(grid.heights_m);
+  const Vec2 corner{south_west.x + kept.i * layout.spacing_m, south_west.y + kept.j * layout.spacing_m};
+  for (const Vec3 p : points) {
+    const Vec3 local{p.x - corner.x, p.y - corner.y, p.z * source.z_scale};
+    // The rim is the samples'.
+    if (local.x > 0 && local.y > 0 && local.x < terrain.width_m() && local.y < terrain.depth_m())
+      terrain.points.push_back(local);
+  }
+  return terrain;
+}
+
 Terrain load_samples(const TerrainSource& source) {
   const auto expected = static_cast<std::size_t>(std::max(source.columns, 0)) *
                         static_cast<std::size_t>(std::max(source.rows, 0));
@@ -264,9 +303,9 @@ Terrain load_samples(const TerrainSource& source) {
 }
 
 void check_source(const TerrainSource& source) {
-  const int kinds =
-      (source.file.empty() ? 0 : 1) + (source.generator.empty() ? 0 : 1) + (source.samples.empty() ? 0 : 1);
-  if (kinds != 1) refuse(source, "needs exactly one of file, generator, samples");
+  const int kinds = (source.file.empty() ? 0 : 1) + (source.points.empty() ? 0 : 1) +
+                    (source.generator.empty() ? 0 : 1) + (source.samples.empty() ? 0 : 1);
+  if (kinds != 1) refuse(source, "needs exactly one of file, points, generator, samples");
   if (source.size && (*source.size < 2 || *source.size > kMostSamplesASide)) {
     refuse(source, fmt::format("size is {}; give 2 to {} samples a side", *source.size, kMostSamplesASide));
   }
@@ -293,6 +332,7 @@ double with_exact_multiples(double spacing_m) {
 Terrain load_terrain(const TerrainSource& source) {
   check_source(source);
   Terrain terrain = !source.file.empty()        ? load_file(source)
+                    : !source.points.empty()    ? load_survey(source)
                     : !source.generator.empty() ? generate_terrain(source)
                                                 : load_samples(source);
   terrain.id = source.id;

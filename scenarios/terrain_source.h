@@ -33,15 +33,16 @@ enum class FitRule {
   crop,      ///< size × size samples at the raster's own spacing
 };
 
-/// Where a terrain comes from: exactly one of `file`, `generator`, `samples`.
+/// Where a terrain comes from: exactly one of `file`, `points`, `generator`, `samples`.
 struct TerrainSource {
   std::string id;
-  std::filesystem::path file;   ///< anything that GDAL opens
-  std::string generator;        ///< one of terrain_generators()
-  std::vector<double> samples;  ///< rows from the south; needs columns and rows; not finite: a hole
-  int columns = 0, rows = 0;    ///< of `samples`
-  std::uint64_t seed = 1;       ///< of the generator
-  std::optional<int> size;      ///< samples a side; absent: native; generators: 257
+  std::filesystem::path file;    ///< anything that GDAL opens
+  std::filesystem::path points;  ///< surveyed points: a vector file (scattered_points.h)
+  std::string generator;         ///< one of terrain_generators()
+  std::vector<double> samples;   ///< rows from the south; needs columns and rows; not finite: a hole
+  int columns = 0, rows = 0;     ///< of `samples`
+  std::uint64_t seed = 1;        ///< of the generator
+  std::optional<int> size;       ///< samples a side; absent: native; generators: 257
   /// Files: the terrain is resampled to this spacing (with `size`: the middle (size − 1)·spacing_m metres;
   /// without: the whole extent); absent: the raster's own. `samples`, generators, and files without
   /// georeference: the distance of neighbouring samples; absent: 30 m (files: 1 m).
@@ -67,6 +68,10 @@ struct TerrainSource {
 /// in the middle, over the largest centred rectangle that the data covers. The scale grows as 1 + x²/2R²:
 /// below 1.0014 over the 6° that are allowed. Evaluated here on correctly rounded sines, not by PROJ, whose
 /// libm differs from machine to machine.
+///
+/// Surveyed points: sampled in the middle of their extent, linearly in their Delaunay triangles; without size
+/// and spacing_m at their mean distance. Samples outside their hull are holes. Details between the samples
+/// are in Terrain::points alone.
 ///
 /// The spacing is rounded to 32 significant bits, so that every i·spacing_m is exact.
 ///

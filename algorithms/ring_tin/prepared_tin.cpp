@@ -29,14 +29,23 @@ PreparedTin::PreparedTin(tin::Tin network, PlanDomain covered, Prices known)
       domain(std::move(covered)) {}
 
 tin::Tin terrain_tin(const Terrain& terrain, const PointChoice& points) {
-  if (points.share >= 1 && terrain.roads.empty()) return tin::grid_tin(terrain);
+  const bool surveyed = !terrain.points.empty();
+  if (!surveyed && points.share >= 1 && terrain.roads.empty()) return tin::grid_tin(terrain);
+  const auto drawn = [&](int i, int j) {
+    return static_cast<double>(lattice_hash(points.seed, i, j) >> 11) * 0x1p-53 < points.share;
+  };
   std::vector<Vec3> kept;
   for (int j = 0; j < terrain.rows; ++j) {
     for (int i = 0; i < terrain.columns; ++i) {
-      const bool corner = (i == 0 || i + 1 == terrain.columns) && (j == 0 || j + 1 == terrain.rows);
-      const double draw = static_cast<double>(lattice_hash(points.seed, i, j) >> 11) * 0x1p-53;
-      if (corner || draw < points.share) kept.push_back(terrain.point(i, j));
+      const bool side = i == 0 || i + 1 == terrain.columns;
+      const bool end = j == 0 || j + 1 == terrain.rows;
+      const bool candidate = !surveyed || side || end;
+      if (candidate && ((side && end) || drawn(i, j))) kept.push_back(terrain.point(i, j));
     }
+  }
+  for (std::size_t k = 0; k < terrain.points.size(); ++k) {
+    // A row of its own beside the samples', so that no sample shares a point's draw.
+    if (drawn(static_cast<int>(k), -1)) kept.push_back(terrain.points[k]);
   }
   std::vector<std::vector<Vec3>> roads;
   for (std::size_t r = 0; r < terrain.roads.size(); ++r) {
@@ -61,6 +70,11 @@ std::uint64_t fingerprint(const Terrain& terrain, const PointChoice& points) {
   take(static_cast<std::uint64_t>(terrain.rows));
   take_number(terrain.spacing_m);
   for (const double z : terrain.heights_m) take_number(z);
+  for (const Vec3 p : terrain.points) {
+    take_number(p.x);
+    take_number(p.y);
+    take_number(p.z);
+  }
   for (const auto& road : terrain.roads) {
     take(road.size());
     for (const Vec2 p : road) {

@@ -28,14 +28,15 @@ struct PreparedTin {
   PreparedTin(tin::Tin network, PlanDomain covered, Prices known);
 };
 
-/// Which of a terrain's samples become points of the TIN.
+/// Which of a terrain's samples (or surveyed points) become points of the TIN.
 struct PointChoice {
   double share = 1;  ///< of the samples that are kept: drawn one by one; the terrain's corners always are
   std::uint64_t seed = 1;
 };
 
 /// The TIN of a terrain: every sample on its reference triangulation, or, thinned or with roads, the
-/// (constrained) Delaunay triangulation of what is kept and of the roads' corners, draped on the terrain.
+/// (constrained) Delaunay triangulation of what is kept and of the roads' corners, draped on the terrain. A
+/// terrain of surveyed points gives these and, of the samples, those on its border.
 /// Covers the terrain's rectangle. Throws InputError for a road corner off the terrain, or as delaunay_tin.
 tin::Tin terrain_tin(const Terrain& terrain, const PointChoice& points);
 
