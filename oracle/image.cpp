@@ -112,7 +112,7 @@ void for_each_displacement(const SeenSurface& seen, const RaySurface& other, Jud
 
 /// Figures along the same ray, where both surfaces are seen.
 void compare_depths(const Camera& camera, const PixelHits& reference, const PixelHits& mesh,
-                    ImageError& result) {
+                    ImageError& result, Raster* map = nullptr) {
   const auto width = static_cast<std::size_t>(camera.width_px);
   const auto height = static_cast<std::size_t>(camera.height_px);
   FigureBuilder depth_rel(width * height);
@@ -137,8 +137,10 @@ void compare_depths(const Camera& camera, const PixelHits& reference, const Pixe
     for (std::size_t pixel = y * width; pixel < (y + 1) * width; ++pixel) {
       if (reference.triangle[pixel] == PixelHits::kNoHit || mesh.triangle[pixel] == PixelHits::kNoHit)
         continue;
-      parallax.add(camera.kappa_px *
-                   std::fabs(moved_m / reference.depth_m[pixel] - moved_m / mesh.depth_m[pixel]));
+      const double px =
+          camera.kappa_px * std::fabs(moved_m / reference.depth_m[pixel] - moved_m / mesh.depth_m[pixel]);
+      parallax.add(px);
+      if (map != nullptr) map->values[pixel] = static_cast<float>(px);
     }
     parallax.end_row();
   }
@@ -173,6 +175,26 @@ ImageError image_error(const Camera& camera, const RaySurface& reference, const 
   }
   result.displacement_px = displacement.finish();
   compare_depths(camera, reference_hits, mesh_hits, result);
+  const SilhouetteDifference silhouettes = compare_silhouettes(reference_hits, mesh_hits);
+  result.silhouette_pixels = silhouettes.pixels;
+  result.silhouette_max_px = silhouettes.max_px;
+  return result;
+}
+
+ImageError ray_error(const Camera& camera, const PixelHits& reference_hits, const PixelHits& mesh_hits,
+                     Raster* parallax_px) {
+  check_size(camera, reference_hits);
+  check_size(camera, mesh_hits);
+  ImageError result;
+  if (parallax_px != nullptr) {
+    *parallax_px = Raster(camera.width_px, camera.height_px, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t pixel = 0; pixel < mesh_hits.triangle.size(); ++pixel) {
+      if ((reference_hits.triangle[pixel] == PixelHits::kNoHit) !=
+          (mesh_hits.triangle[pixel] == PixelHits::kNoHit))
+        parallax_px->values[pixel] = std::numeric_limits<float>::infinity();
+    }
+  }
+  compare_depths(camera, reference_hits, mesh_hits, result, parallax_px);
   const SilhouetteDifference silhouettes = compare_silhouettes(reference_hits, mesh_hits);
   result.silhouette_pixels = silhouettes.pixels;
   result.silhouette_max_px = silhouettes.max_px;

@@ -123,6 +123,13 @@ ImageError image_error(const Camera& camera, const RaySurface& reference, const 
                        const RaySurface& mesh, const PixelHits& mesh_hits, double threshold_px,
                        ImageMaps* maps = nullptr);
 
+/// The figures that make sense on meshes that are no height fields: parallax_px, depth_rel and the
+/// silhouettes; "the mesh's point over S's (x, y)" has no meaning there, so nothing is judged for
+/// displacement_px, and uncovered_px is 0. `parallax_px`, if asked for, gets each pixel's parallax, +∞ where
+/// one surface is seen and the other is not, NaN where neither is.
+ImageError ray_error(const Camera& camera, const PixelHits& reference_hits, const PixelHits& mesh_hits,
+                     Raster* parallax_px = nullptr);
+
 /// `pop_px`: displacement between the previous frame's mesh and this one, both seen from this frame's camera.
 PixelFigure pop(const Camera& camera, const RaySurface& now, const PixelHits& now_hits,
                 const RaySurface& before);

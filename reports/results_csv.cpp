@@ -26,6 +26,7 @@ std::string csv_number(double value) { return std::isfinite(value) ? number_text
 
 /// Whether anything stands behind a figure of this frame; if not, its cell stays empty.
 bool was_judged(std::string_view figure, const verdict::FrameVerdict& frame) {
+  if (!verdict::was_asked(frame.subject, figure)) return false;
   if (figure == "displacement_px.uncovered_px") return true;
   if (figure.starts_with("displacement_px.")) return frame.image.displacement_px.count > 0;
   if (figure.starts_with("parallax_px.")) return frame.image.parallax_px.count > 0;

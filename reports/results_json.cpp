@@ -30,7 +30,15 @@ Json camera_json(const Camera& camera) {
           {"viewport", Json::array({camera.width_px, camera.height_px})}};
 }
 
-Json conformity_json(const oracle::ConformityCounts& counts) {
+Json conformity_json(const oracle::ConformityCounts& counts, Subject subject) {
+  if (subject == Subject::mesh) {  // no plan: what was not asked is null, not zero
+    return {{"crack", nullptr},     {"t_junction", nullptr},
+            {"fold_over", nullptr}, {"degenerate", counts.degenerate},
+            {"hole", nullptr},      {"overlap", nullptr},
+            {"outline", nullptr},   {"non_manifold", counts.non_manifold},
+            {"duplicate", counts.duplicate}, {"non_finite", counts.non_finite},
+            {"bad_index", counts.bad_index}, {"unused_vertex", counts.unused_vertex}};
+  }
   return {{"crack", counts.crack},         {"t_junction", counts.t_junction},
           {"fold_over", counts.fold_over}, {"degenerate", counts.degenerate},
           {"hole", counts.hole},           {"overlap", counts.overlap},
@@ -83,10 +91,11 @@ void add_figures(Json& out, const Judged& frame) {
   const oracle::PixelFigure& displacement = frame.image.displacement_px;
   const oracle::PixelFigure& depth = frame.image.depth_rel;
   const bool seen = displacement.count > 0;
-  out["conformity"] = conformity_json(frame.conformity);
-  out["visible_cracks"] = frame.visible_cracks;
-  out["largest_gap_m"] = frame.largest_gap_m;
-  out["largest_gap_px"] = frame.largest_gap_px;
+  const bool plan = frame.subject == Subject::terrain;
+  out["conformity"] = conformity_json(frame.conformity, frame.subject);
+  out["visible_cracks"] = plan ? Json(frame.visible_cracks) : Json(nullptr);
+  out["largest_gap_m"] = judged(plan, frame.largest_gap_m);
+  out["largest_gap_px"] = judged(plan, frame.largest_gap_px);
   out["vertical_m"] = vertical_json(frame.vertical_m);
   out["displacement_px"] = {{"max", judged(seen, displacement.max)},
                             {"p999", judged(seen, displacement.p999)},
@@ -94,7 +103,7 @@ void add_figures(Json& out, const Judged& frame) {
                             {"rms", judged(seen, displacement.rms)},
                             {"mean", judged(seen, displacement.mean)},
                             {"over_threshold", judged(seen, frame.image.over_threshold)},
-                            {"uncovered_px", frame.image.uncovered_px},
+                            {"uncovered_px", plan ? Json(frame.image.uncovered_px) : Json(nullptr)},
                             {"judged_px", displacement.count}};
   const oracle::PixelFigure& parallax = frame.image.parallax_px;
   out["parallax_px"] = {{"max", judged(parallax.count > 0, parallax.max)},
@@ -111,13 +120,13 @@ void add_figures(Json& out, const Judged& frame) {
                    {"p99", judged(frame.pop_px.count > 0, frame.pop_px.p99)},
                    {"judged_px", frame.pop_px.count}};
   out["stability"] = stability_json(frame.stability);
-  out["shape"] = {{"slivers", frame.shape.slivers},
-                  {"min_quality", frame.shape.min_quality},
-                  {"mean_quality", frame.shape.mean_quality},
-                  {"least_angle_deg", frame.shape.least_angle_deg},
-                  {"max_valence", frame.shape.max_valence},
-                  {"mean_valence", frame.shape.mean_valence},
-                  {"mean_fan_length", frame.shape.mean_fan_length}};
+  out["shape"] = {{"slivers", plan ? Json(frame.shape.slivers) : Json(nullptr)},
+                  {"min_quality", judged(plan, frame.shape.min_quality)},
+                  {"mean_quality", judged(plan, frame.shape.mean_quality)},
+                  {"least_angle_deg", judged(plan, frame.shape.least_angle_deg)},
+                  {"max_valence", plan ? Json(frame.shape.max_valence) : Json(nullptr)},
+                  {"mean_valence", judged(plan, frame.shape.mean_valence)},
+                  {"mean_fan_length", judged(plan, frame.shape.mean_fan_length)}};
   const verdict::CounterFigures& counters = frame.counters;
   out["counters"] = {
       {"visited", counters.visited}, {"evaluated", counters.evaluated}, {"split", counters.split},
@@ -199,6 +208,7 @@ Json summary_json(const RunSummary& summary) {
 Json run_json(const verdict::RunVerdict& run) {
   Json out = {{"id", run.id},         {"terrain", run.terrain},           {"trajectory", run.trajectory},
               {"method", run.method}, {"threshold_px", run.threshold_px}, {"frames", Json::array()}};
+  if (run.subject == Subject::mesh) out["subject"] = "mesh";  // absent: a terrain
   for (const FrameVerdict& frame : run.frames) out["frames"].push_back(frame_json(frame));
   out["summary"] = summary_json(run.summary);
   return out;
@@ -225,6 +235,15 @@ std::string results_json(const verdict::SuiteVerdict& verdict) {
                                {"lowest_m", terrain.lowest_m},
                                {"highest_m", terrain.highest_m},
                                {"diagonal_ambiguity_m", terrain.diagonal_ambiguity_m}});
+  for (const verdict::MeshFacts& mesh : verdict.meshes) {
+    out["meshes"].push_back({{"id", mesh.id},
+                             {"objects", mesh.objects},
+                             {"triangles", mesh.triangles},
+                             {"vertices", mesh.vertices},
+                             {"center", xyz(mesh.center)},
+                             {"radius_m", mesh.radius_m},
+                             {"object_radius_m", mesh.object_radius_m}});
+  }
   for (const verdict::RunVerdict& run : verdict.runs) out["runs"].push_back(run_json(run));
   for (const verdict::GateVerdict& gate : verdict.gates)
     out["gates"].push_back({{"name", gate.name},

@@ -145,27 +145,71 @@ std::vector<CameraPose> read_poses(const TomlValue& value) {
   return poses;
 }
 
-TrajectorySpec read_trajectory(const TomlTable& table) {
-  table.allow_only(
-      {"id", "kind", "frames", "height_m", "distance_m", "jitter_px", "hold_frames", "seed", "poses"});
+MeshSource read_mesh_source(const TomlTable& table, const std::filesystem::path& folder) {
+  table.allow_only({"id", "file", "generator", "at", "scale"});
+  MeshSource source;
+  source.id = table.at("id").text();
+  const TomlValue* file = table.find("file");
+  const TomlValue* generator = table.find("generator");
+  if ((file != nullptr) == (generator != nullptr))
+    table.fail(fmt::format("{} needs exactly one of 'file', 'generator'", table.name()));
+  if (file != nullptr) {
+    if (file->text().empty()) file->fail("is empty; give the path of a PLY, OBJ, OFF or STL file");
+    source.file = (folder / file->text()).lexically_normal();
+  } else {
+    source.generator = generator->text();
+    std::vector<std::string> names;
+    for (const MeshGenerator& known : mesh_generators()) names.push_back(known.name);
+    if (std::find(names.begin(), names.end(), source.generator) == names.end()) {
+      generator->fail(fmt::format("is \"{}\"; did you mean \"{}\"?", one_line(source.generator, 80),
+                                  nearest_name(source.generator, names)));
+    }
+  }
+  if (const TomlValue* at = table.find("at")) {
+    for (const TomlValue& place : at->array()) {
+      const std::vector<double> v = place.numbers(3);
+      source.at.push_back({v[0], v[1], v[2]});
+    }
+    if (source.at.empty() || source.at.size() > kMostCopies)
+      at->fail(fmt::format("has {} places; give 1 to {}, each [x, y, z]", source.at.size(), kMostCopies));
+  }
+  if (const TomlValue* scale = table.find("scale"))
+    source.scale = scale->number_in(kLeastScale, kLargestScale);
+  return source;
+}
+
+TrajectorySpec read_trajectory(const TomlTable& table, Subject around) {
+  table.allow_only({"id", "kind", "around", "frames", "height_m", "distance_m", "distance_radii", "jitter_px",
+                    "hold_frames", "seed", "poses"});
   TrajectorySpec spec;
   spec.id = table.at("id").text();
+  spec.around = around;
+  if (const TomlValue* chosen = table.find("around"))
+    spec.around = one_of<Subject>(*chosen, {{"terrain", Subject::terrain}, {"mesh", Subject::mesh}});
+  const bool mesh = spec.around == Subject::mesh;
   const TomlValue& kind = table.at("kind");
   spec.kind = kind.text();
   std::vector<std::string> names;
   const TrajectoryKind* chosen = nullptr;
-  for (const TrajectoryKind& known : trajectory_kinds()) {
+  for (const TrajectoryKind& known : mesh ? trajectory_kinds_around_mesh() : trajectory_kinds()) {
     names.push_back(known.name);
     if (known.name == spec.kind) chosen = &known;
+  }
+  const auto& over_terrain = trajectory_kinds();
+  if (chosen == nullptr && mesh &&
+      std::any_of(over_terrain.begin(), over_terrain.end(),
+                  [&](const TrajectoryKind& known) { return known.name == spec.kind; })) {
+    kind.fail(fmt::format("is \"{}\", which flies over terrains only; around a mesh there are {}", spec.kind,
+                          fmt::join(names, ", ")));
   }
   if (chosen == nullptr) {
     kind.fail(fmt::format("is \"{}\"; did you mean \"{}\"?", one_line(spec.kind, 80),
                           nearest_name(spec.kind, names)));
   }
   for (const auto& [key, value] : table.entries()) {
-    if (key == "id" || key == "kind") continue;
+    if (key == "id" || key == "kind" || key == "around") continue;
     if (std::find(chosen->keys.begin(), chosen->keys.end(), key) == chosen->keys.end()) {
-      value.fail(fmt::format("does not apply to kind \"{}\"; leave it out", spec.kind));
+      value.fail(fmt::format("does not apply to kind \"{}\"{}; leave it out", spec.kind, mesh ? " around a mesh" : ""));
     }
   }
   if (spec.kind == "poses") {
@@ -175,6 +219,10 @@ TrajectorySpec read_trajectory(const TomlTable& table) {
   }
   if (const TomlValue* height = table.find("height_m")) spec.height_m = height->positive();
   if (const TomlValue* distance = table.find("distance_m")) spec.distance_m = distance->positive();
+  if (const TomlValue* distance = table.find("distance_radii")) {
+    spec.distance_radii = distance->positive();
+    if (!(spec.distance_radii > 1)) distance->fail("is within the scene's ball; give more than 1");
+  }
   if (const TomlValue* jitter = table.find("jitter_px")) spec.jitter_px = jitter->positive();
   if (const TomlValue* hold = table.find("hold_frames")) {
     spec.hold_frames = static_cast<int>(hold->integer_in(1, kMostFrames));

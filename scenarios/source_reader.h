@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "scenarios/mesh_source.h"
 #include "scenarios/terrain_source.h"
 #include "scenarios/toml_reader.h"
 #include "scenarios/trajectory.h"
@@ -18,8 +19,13 @@ namespace plumbline {
 /// Throws InputError for any other key, a wrong type or range.
 TerrainSource read_terrain_source(const TomlTable& table, const std::filesystem::path& folder);
 
-/// Reads a `[[trajectory]]`: id, kind, and the keys that the kind takes (trajectory_kinds()).
-TrajectorySpec read_trajectory(const TomlTable& table);
+/// Reads a `[[mesh]]`: id, exactly one of file, generator, and at (places of copies), scale; relative paths
+/// start at `folder`. Throws InputError for any other key, a wrong type or range.
+MeshSource read_mesh_source(const TomlTable& table, const std::filesystem::path& folder);
+
+/// Reads a `[[trajectory]]`: id, kind, around ("terrain", "mesh"; absent: `around`), and the keys that the
+/// kind takes there (trajectory_kinds(), trajectory_kinds_around_mesh()).
+TrajectorySpec read_trajectory(const TomlTable& table, Subject around = Subject::terrain);
 
 /// Reads an array of `{ position = [x,y,z], look_at = [x,y,z] }`, metres.
 std::vector<CameraPose> read_poses(const TomlValue& value);

@@ -78,20 +78,49 @@ MethodSpec read_method(const TomlTable& table) {
 void refuse_equal_run_ids(const Suite& suite, const TomlTable& file) {
   std::size_t thresholds = 0;
   for (const MethodSpec& method : suite.methods) thresholds += method.thresholds_px.size();
-  const std::size_t runs = suite.terrains.size() * suite.trajectories.size() * thresholds;
+  const auto flown_around = [&](Subject subject) {
+    return static_cast<std::size_t>(
+        std::count_if(suite.trajectories.begin(), suite.trajectories.end(),
+                      [&](const TrajectorySpec& trajectory) { return trajectory.around == subject; }));
+  };
+  const std::size_t flights = suite.terrains.size() * flown_around(Subject::terrain) +
+                              suite.meshes.size() * flown_around(Subject::mesh);
+  const std::size_t runs = flights * thresholds;
   if (runs > kMostRuns) file.fail(fmt::format("the suite asks for {} runs; keep to {}", runs, kMostRuns));
   std::set<std::string> ids;
-  for (const TerrainSource& terrain : suite.terrains) {
+  const auto take = [&](const std::string& subject_id, Subject subject) {
     for (const TrajectorySpec& trajectory : suite.trajectories) {
+      if (trajectory.around != subject) continue;
       for (const MethodSpec& method : suite.methods) {
         for (const double threshold_px : method.thresholds_px) {
           const std::string id =
-              fmt::format("{}.{}.{}.{}", terrain.id, trajectory.id, method.id, threshold_px);
+              fmt::format("{}.{}.{}.{}", subject_id, trajectory.id, method.id, threshold_px);
           if (!ids.insert(id).second) {
             file.fail(fmt::format("two runs would be called \"{}\"; leave dots out of the ids", id));
           }
         }
       }
+    }
+  };
+  for (const TerrainSource& terrain : suite.terrains) take(terrain.id, Subject::terrain);
+  for (const MeshSource& mesh : suite.meshes) take(mesh.id, Subject::mesh);
+}
+
+// Every subject is flown around, and every trajectory has something to fly around: nothing is left out silently.
+void refuse_idle(const Suite& suite, const TomlTable& file) {
+  const auto flown = [&](Subject subject) {
+    return std::any_of(suite.trajectories.begin(), suite.trajectories.end(),
+                       [&](const TrajectorySpec& trajectory) { return trajectory.around == subject; });
+  };
+  if (!suite.terrains.empty() && !flown(Subject::terrain))
+    file.fail("no trajectory flies over the terrains; add a [[trajectory]] with around = \"terrain\"");
+  if (!suite.meshes.empty() && !flown(Subject::mesh))
+    file.fail("no trajectory flies around the meshes; add a [[trajectory]] with around = \"mesh\"");
+  for (const TrajectorySpec& trajectory : suite.trajectories) {
+    const bool mesh = trajectory.around == Subject::mesh;
+    if (mesh ? suite.meshes.empty() : suite.terrains.empty()) {
+      file.fail(fmt::format("trajectory '{}' flies around a {}, and the suite has none; add a [[{}]]",
+                            trajectory.id, mesh ? "mesh" : "terrain", mesh ? "mesh" : "terrain"));
     }
   }
 }
@@ -100,7 +129,7 @@ void refuse_equal_run_ids(const Suite& suite, const TomlTable& file) {
 
 Suite load_suite(const std::filesystem::path& path) {
   const TomlTable file = read_toml(path);
-  file.allow_only({"suite", "terrain", "trajectory", "method", "gate"});
+  file.allow_only({"suite", "terrain", "mesh", "trajectory", "method", "gate"});
   Suite suite;
   suite.path = path;
 
@@ -127,19 +156,29 @@ Suite load_suite(const std::filesystem::path& path) {
     refuse_second(*table, suite.terrains, id);
     suite.terrains.push_back(read_terrain_source(*table, path.parent_path()));
   }
+  for (const TomlTable* table : file.tables("mesh")) {
+    const std::string id = read_id(*table, false);
+    refuse_second(*table, suite.terrains, id);
+    refuse_second(*table, suite.meshes, id);
+    suite.meshes.push_back(read_mesh_source(*table, path.parent_path()));
+  }
+  const bool meshes_only = suite.terrains.empty() && !suite.meshes.empty();
+  const Subject around = meshes_only ? Subject::mesh : Subject::terrain;
   for (const TomlTable* table : file.tables("trajectory")) {
     const std::string id = read_id(*table, false);
     refuse_second(*table, suite.trajectories, id);
-    suite.trajectories.push_back(read_trajectory(*table));
+    suite.trajectories.push_back(read_trajectory(*table, around));
   }
   for (const TomlTable* table : file.tables("method")) {
     MethodSpec method = read_method(*table);
     refuse_second(*table, suite.methods, method.id);
     suite.methods.push_back(std::move(method));
   }
-  if (suite.terrains.empty()) file.fail("the suite has no terrain; add a [[terrain]]");
+  if (suite.terrains.empty() && suite.meshes.empty())
+    file.fail("the suite has no terrain; add a [[terrain]], or a [[mesh]]");
   if (suite.trajectories.empty()) file.fail("the suite has no trajectory; add a [[trajectory]]");
   if (suite.methods.empty()) file.fail("the suite has no method; add a [[method]]");
+  refuse_idle(suite, file);
   refuse_equal_run_ids(suite, file);
 
   if (const TomlValue* gate = file.find("gate")) {

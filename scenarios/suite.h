@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "scenarios/mesh_source.h"
 #include "scenarios/terrain_source.h"
 #include "scenarios/trajectory.h"
 
@@ -41,7 +42,8 @@ struct Suite {
   int width_px = 1280;
   int height_px = 720;
   double fov_y_deg = 60;
-  std::vector<TerrainSource> terrains;
+  std::vector<TerrainSource> terrains;  ///< terrains or meshes may be absent, not both
+  std::vector<MeshSource> meshes;
   std::vector<TrajectorySpec> trajectories;
   std::vector<MethodSpec> methods;
   std::vector<GateSpec> gates;

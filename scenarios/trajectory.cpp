@@ -260,7 +260,10 @@ const std::vector<Flight>& flights() {
   return all;
 }
 
-void check(const TrajectorySpec& spec, bool poses) {
+}  // namespace
+
+void check_script(const TrajectorySpec& spec) {
+  const bool poses = spec.kind == "poses";
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("trajectory '{}': {}", spec.id, what));
   };
@@ -280,7 +283,18 @@ void check(const TrajectorySpec& spec, bool poses) {
   }
 }
 
-}  // namespace
+std::vector<Camera> cameras_at(const TrajectorySpec& spec, const std::vector<CameraPose>& poses,
+                               double fov_y_deg, int width_px, int height_px) {
+  std::vector<Camera> cameras;
+  for (const CameraPose& pose : poses) {
+    try {
+      cameras.push_back(make_camera(pose.position, pose.look_at, fov_y_deg, width_px, height_px));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("trajectory '{}': pose {}: {}", spec.id, cameras.size(), error.what()));
+    }
+  }
+  return cameras;
+}
 
 std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const Terrain& terrain, double fov_y_deg,
                                     int width_px, int height_px) {
@@ -292,19 +306,11 @@ std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const Terrain& t
     for (const TrajectoryKind& kind : trajectory_kinds()) names.push_back(kind.name);
     throw InputError(fmt::format("trajectory '{}': {}", spec.id, unknown_name("kind", spec.kind, names)));
   }
-  check(spec, spec.kind == "poses");
+  check_script(spec);
   // κ depends on the picture alone; this camera also checks the picture before any pose is made.
   const double kappa_px = make_camera({0, 0, 1}, {0, 1, 0}, fov_y_deg, width_px, height_px).kappa_px;
   const Scene scene{spec, terrain, kappa_px};
-  std::vector<Camera> cameras;
-  for (const CameraPose& pose : flight->fly(scene)) {
-    try {
-      cameras.push_back(make_camera(pose.position, pose.look_at, fov_y_deg, width_px, height_px));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("trajectory '{}': pose {}: {}", spec.id, cameras.size(), error.what()));
-    }
-  }
-  return cameras;
+  return cameras_at(spec, flight->fly(scene), fov_y_deg, width_px, height_px);
 }
 
 const std::vector<TrajectoryKind>& trajectory_kinds() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenarios/camera.h"
+#include "scenarios/mesh_source.h"
 #include "scenarios/terrain.h"
 
 namespace plumbline {
@@ -15,6 +16,9 @@ struct CameraPose {
   Vec3 look_at;
 };
 
+/// What is flown over, or around, and judged.
+enum class Subject { terrain, mesh };
+
 inline constexpr int kMostFrames = 100'000;
 
 /// A scripted flight. Lengths left at 0 take a default from L, the lesser side of the terrain's extent, so
@@ -22,6 +26,7 @@ inline constexpr int kMostFrames = 100'000;
 /// trajectory_kinds().
 struct TrajectorySpec {
   std::string id;
+  Subject around = Subject::terrain;
   std::string kind;  ///< approach, retreat, orbit, skim, spin, nadir, teleport, two_ways, hover, poses
   int frames = 0;    ///< absent for `poses`: one frame a pose
   /// approach, retreat: above the ground at the near end (0.02 L); two_ways: at the pose held (0.08 L); skim
@@ -30,6 +35,9 @@ struct TrajectorySpec {
   double height_m = 0;
   double distance_m = 0;   ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L); two_ways:
                            ///< length of each way (0.5 L)
+  /// Around a mesh: from the scene's centre, in radii of the ball around it; approach, retreat, two_ways: of
+  /// the far end; orbit, spin, hover: of the camera. 0: as the kind tells (trajectory_kinds_around_mesh()).
+  double distance_radii = 0;
   double jitter_px = 0;    ///< hover: amplitude of the motion, as it shows in the picture's middle (0.5 px)
   int hold_frames = 0;     ///< teleport, two_ways: frames that a pose is held (4; 3)
   std::uint64_t seed = 1;  ///< teleport, hover
@@ -42,11 +50,22 @@ struct TrajectorySpec {
 std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const Terrain& terrain, double fov_y_deg,
                                     int width_px, int height_px);
 
+/// The same around a scene of objects. Distances follow from the size on the screen of the ball around one
+/// object at the scene's near side. Throws InputError as above, and for a distance within the scene's ball.
+std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const ObjectScene& objects, double fov_y_deg,
+                                    int width_px, int height_px);
+
+/// What every flight asks of its script, and the cameras of its poses; throw InputError as make_trajectory.
+void check_script(const TrajectorySpec& spec);
+std::vector<Camera> cameras_at(const TrajectorySpec& spec, const std::vector<CameraPose>& poses,
+                               double fov_y_deg, int width_px, int height_px);
+
 struct TrajectoryKind {
   std::string name;
   std::string summary;
   std::vector<std::string> keys;  ///< of a suite file that apply to it, besides id and kind
 };
 const std::vector<TrajectoryKind>& trajectory_kinds();
+const std::vector<TrajectoryKind>& trajectory_kinds_around_mesh();
 
 }  // namespace plumbline

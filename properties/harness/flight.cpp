@@ -13,6 +13,7 @@
 
 #include "oracle/conformity.h"
 #include "oracle/shape.h"
+#include "oracle/soundness.h"
 #include "oracle/vertical.h"
 
 namespace plumbline {
@@ -95,10 +96,27 @@ Flight::Flight(std::unique_ptr<LodMethod> method, const TerrainStage& stage, con
 Flight::~Flight() = default;
 
 void Flight::judge_mesh(Judged& judged) const {
-  judged.conformity = oracle::check_conformity(now_->mesh, now_->domain);
-  judged.vertical_m = oracle::vertical_error(now_->mesh, stage_.terrain);
-  judged.shape = oracle::shape(now_->mesh);
+  if (stage_.subject == Subject::mesh) {
+    judged.conformity = oracle::check_soundness(now_->mesh);
+  } else {
+    judged.conformity = oracle::check_conformity(now_->mesh, now_->domain);
+    judged.vertical_m = oracle::vertical_error(now_->mesh, stage_.terrain);
+    judged.shape = oracle::shape(now_->mesh);
+  }
   judged.surface = std::make_unique<oracle::RaySurface>(device_, now_->mesh);
+}
+
+oracle::ImageError Flight::judge_image(const FrameScene& scene, const oracle::RaySurface& surface,
+                                       const oracle::PixelHits& hits) const {
+  if (stage_.subject == Subject::mesh) return oracle::ray_error(scene.camera, *scene.reference_hits, hits);
+  return oracle::image_error(scene.camera, *stage_.surface, *scene.reference_hits, surface, hits,
+                             method_->threshold_px());
+}
+
+oracle::PixelFigure Flight::jump(const Camera& camera, const oracle::RaySurface& now,
+                                 const oracle::PixelHits& hits, const oracle::RaySurface& before) const {
+  if (stage_.subject == Subject::terrain) return oracle::pop(camera, now, hits, before);
+  return oracle::ray_error(camera, hits, before.look(camera)).parallax_px;
 }
 
 verdict::FrameVerdict Flight::next(const FrameScene& scene) {
@@ -130,6 +148,7 @@ verdict::FrameVerdict Flight::next(const FrameScene& scene) {
   const Judged& judged = *judged_now_;
   verdict::FrameVerdict out;
   out.index = scene.index;
+  out.subject = stage_.subject;
   out.camera = camera;
   out.triangles = now_->mesh.triangles.size();
   out.vertices = now_->mesh.positions.size();
@@ -139,11 +158,10 @@ verdict::FrameVerdict Flight::next(const FrameScene& scene) {
   out.largest_gap_m = judged.conformity.largest_gap_m;
 
   const oracle::PixelHits hits = judged.surface->look(camera);
-  out.image = oracle::image_error(camera, *stage_.surface, *scene.reference_hits, *judged.surface, hits,
-                                  method_->threshold_px());
+  out.image = judge_image(scene, *judged.surface, hits);
   if (!first) {
     const Judged& earlier = unchanged ? judged : *judged_before_;
-    out.pop_px = oracle::pop(camera, *judged.surface, hits, *earlier.surface);
+    out.pop_px = jump(camera, *judged.surface, hits, *earlier.surface);
   }
 
   out.findings = judged.conformity.findings;
@@ -180,8 +198,13 @@ verdict::StabilityFigures Flight::judge_stability(const FrameScene& scene, const
   out.cut = scene.cut;
   const oracle::ImageError& image = frame.image;
   // Where no pixel could be judged because there is no mesh, nothing is under a threshold.
-  out.under_threshold =
-      image.displacement_px.count > 0 ? image.displacement_px.p99 <= tau : image.uncovered_px == 0;
+  const bool of_mesh = stage_.subject == Subject::mesh;
+  if (of_mesh) {
+    out.under_threshold = image.silhouette_max_px <= tau;
+  } else {
+    out.under_threshold =
+        image.displacement_px.count > 0 ? image.displacement_px.p99 <= tau : image.uncovered_px == 0;
+  }
 
   probe_->reset();
   probe_->update(camera, *fresh_);
@@ -194,11 +217,12 @@ verdict::StabilityFigures Flight::judge_stability(const FrameScene& scene, const
     own_surface = std::make_unique<oracle::RaySurface>(device_, fresh_->mesh);
     fresh_surface = own_surface.get();
     out.path_share = oracle::compare_keys(keys_now_, fresh_keys).share();
-    out.path_px = oracle::pop(camera, *judged_now_->surface, hits, *fresh_surface).max;
-    const oracle::ImageError fresh = oracle::image_error(camera, *stage_.surface, *scene.reference_hits,
-                                                         *fresh_surface, fresh_surface->look(camera), tau);
-    out.settled =
-        image.uncovered_px <= fresh.uncovered_px && image.displacement_px.p99 <= fresh.displacement_px.p99;
+    out.path_px = jump(camera, *judged_now_->surface, hits, *fresh_surface).max;
+    const oracle::ImageError fresh = judge_image(scene, *fresh_surface, fresh_surface->look(camera));
+    out.settled = of_mesh ? image.silhouette_max_px <= fresh.silhouette_max_px &&
+                                image.parallax_px.p99 <= fresh.parallax_px.p99
+                          : image.uncovered_px <= fresh.uncovered_px &&
+                                image.displacement_px.p99 <= fresh.displacement_px.p99;
   }
 
   const Camera shaken_camera = oracle::jittered(camera, scene.mean_depth_m);
@@ -213,7 +237,7 @@ verdict::StabilityFigures Flight::judge_stability(const FrameScene& scene, const
     if (!same_surface(*again_, *shaken_)) {
       const oracle::RaySurface still(device_, again_->mesh);
       const oracle::RaySurface shaken(device_, shaken_->mesh);
-      out.jitter_px = oracle::pop(shaken_camera, shaken, shaken.look(shaken_camera), still).max;
+      out.jitter_px = jump(shaken_camera, shaken, shaken.look(shaken_camera), still).max;
     }
   }
 

@@ -12,12 +12,15 @@
 #include "oracle/image.h"
 #include "properties/verdict/verdict.h"
 #include "scenarios/terrain.h"
+#include "scenarios/trajectory.h"
 
 namespace plumbline {
 
-/// What a method is held to, with everything its judges share: samples and their surface, ready for rays.
+/// What a method is held to, with everything its judges share: samples, or objects, and their surface, ready
+/// for rays.
 struct TerrainStage {
-  Terrain terrain;  ///< as far as the method represents it (LodMethod::reference)
+  Subject subject = Subject::terrain;
+  Terrain terrain;  ///< as far as the method represents it (LodMethod::reference); of a mesh: empty
   Mesh reference;
   std::unique_ptr<oracle::RaySurface> surface;  ///< over `reference`
 };
@@ -51,6 +54,11 @@ class Flight {
  private:
   struct Judged;
   void judge_mesh(Judged& judged) const;
+  [[nodiscard]] oracle::ImageError judge_image(const FrameScene& scene, const oracle::RaySurface& surface,
+                                               const oracle::PixelHits& hits) const;
+  /// What changes in the picture between two meshes: displacement or, on a mesh, parallax.
+  [[nodiscard]] oracle::PixelFigure jump(const Camera& camera, const oracle::RaySurface& now,
+                                         const oracle::PixelHits& hits, const oracle::RaySurface& before) const;
   verdict::StabilityFigures judge_stability(const FrameScene& scene, const verdict::FrameVerdict& frame,
                                             const oracle::PixelHits& hits);
 

@@ -33,14 +33,18 @@ bool was_judged(const verdict::RunSummary& summary, std::string_view figure) {
   if (of("displacement_px.")) return summary.image.displacement_px.count > 0;
   if (of("parallax_px.")) return summary.image.parallax_px.count > 0;
   if (of("depth_rel.")) return summary.image.depth_rel.count > 0;
+  if (summary.subject == Subject::mesh && of("silhouette_px.")) {
+    return summary.image.depth_rel.count + summary.image.silhouette_pixels > 0;
+  }
   if (of("pop_px."))
     return summary.pop_px.count > 0 || summary.frames == 1;  // one frame has nothing to pop from
   return summary.frames > 0;
 }
 
-/// Whether a run has what the figure is about: a cut to recover from, a camera that comes again. A flight
-/// without it is not asked.
+/// Whether a run has what the figure is about: a plan to cover, a cut to recover from, a camera that comes
+/// again. A flight without it is not asked.
 bool is_about(const verdict::RunSummary& summary, std::string_view figure) {
+  if (!verdict::was_asked(summary.subject, figure)) return false;
   if (figure == "stability.revisit_share") return summary.stability.revisits > 0;
   for (const std::string_view after_cut : {"stability.recovery_frames", "stability.unrecovered",
                                            "stability.lag_frames", "stability.unsettled"}) {
@@ -50,10 +54,16 @@ bool is_about(const verdict::RunSummary& summary, std::string_view figure) {
 }
 
 /// What holds where a suite asks for nothing: a forgotten gate table must not turn findings green.
-std::vector<GateSpec> default_gates() {
+std::vector<GateSpec> default_gates(const std::vector<verdict::RunVerdict>& runs) {
   std::vector<GateSpec> gates;
   for (const char* figure : {"crack", "t_junction", "fold_over", "degenerate", "hole", "overlap", "outline",
                              "non_manifold", "duplicate", "non_finite", "bad_index", "unused_vertex"}) {
+    // Where every run is about a mesh, plan findings are nobody's.
+    if (!runs.empty() && std::none_of(runs.begin(), runs.end(), [&](const verdict::RunVerdict& run) {
+          return verdict::was_asked(run.subject, figure);
+        })) {
+      continue;
+    }
     gates.push_back({figure, "", "==", 0, false, fmt::format("{} == 0, by default", figure)});
   }
   return gates;
@@ -63,7 +73,7 @@ std::vector<GateSpec> default_gates() {
 
 std::vector<verdict::GateVerdict> judge_gates(const std::vector<GateSpec>& asked,
                                               const std::vector<verdict::RunVerdict>& runs) {
-  const std::vector<GateSpec> gates = asked.empty() ? default_gates() : asked;
+  const std::vector<GateSpec> gates = asked.empty() ? default_gates(runs) : asked;
   std::vector<verdict::GateVerdict> out;
   for (const verdict::RunVerdict& run : runs) {
     for (const GateSpec& gate : gates) {
@@ -122,9 +132,10 @@ std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& ru
       out.push_back(fmt::format("{}: no triangle in any frame", run.id));
       continue;
     }
-    if (summary.image.displacement_px.count == 0)
+    const bool mesh = run.subject == Subject::mesh;
+    if ((mesh ? summary.image.depth_rel : summary.image.displacement_px).count == 0)
       out.push_back(fmt::format("{}: no pixel to measure", run.id));
-    if (!(summary.vertical_m.area_m2 > 0)) out.push_back(fmt::format("{}: no area to measure", run.id));
+    if (!mesh && !(summary.vertical_m.area_m2 > 0)) out.push_back(fmt::format("{}: no area to measure", run.id));
     families[run.method][run.terrain].push_back(&run);
   }
   for (const auto& [method, grounds] : families) {

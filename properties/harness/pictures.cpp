@@ -16,7 +16,11 @@ verdict::FramePictures draw(const PictureOrder& order, const oracle::RayDevice& 
   const oracle::PixelHits hits = surface.look(camera);
   const oracle::PixelHits reference_hits = reference.look(camera);
   oracle::ImageMaps maps;
-  oracle::image_error(camera, reference, reference_hits, surface, hits, order.threshold_px, &maps);
+  if (order.stage->subject == Subject::mesh) {
+    oracle::ray_error(camera, reference_hits, hits, &maps.displacement_px);
+  } else {
+    oracle::image_error(camera, reference, reference_hits, surface, hits, order.threshold_px, &maps);
+  }
 
   verdict::FramePictures out;
   out.run = order.run;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The main job: methods × terrains × trajectories × thresholds. One task is a flight's camera path over one
-// terrain; all methods and thresholds fly it side by side, so that the reference is looked at once a frame
+// The main job: methods × subjects (terrains, then meshes) × trajectories × thresholds, as far as a trajectory
+// flies around that kind of subject and a method takes it. One task is a flight's camera path around one
+// subject; all methods and thresholds fly it side by side, so that the reference is looked at once a frame
 // for all of them.
 #include "properties/harness/run_suite.h"
 
@@ -46,14 +47,15 @@ struct Entry {
 /// The suite with everything loaded that runs share.
 struct Stage {
   const Suite* suite = nullptr;
-  /// [terrain][k]: as far as methods represent it; k = 0 is the whole terrain.
+  std::vector<ObjectScene> scenes;  ///< of the suite's meshes; subject s is scene s - terrains
+  /// [subject][k]: as far as methods represent it; k = 0 is the whole.
   std::vector<std::vector<std::unique_ptr<TerrainStage>>> grounds;
-  std::vector<std::vector<std::size_t>> ground_of;                ///< [terrain][spec]: its k
+  std::vector<std::vector<std::size_t>> ground_of;                ///< [subject][spec]: its k
   std::vector<MethodSpec> specs;                                  ///< those that the options keep
   std::vector<Entry> entries;                                     ///< spec × threshold
-  std::vector<std::vector<std::unique_ptr<LodMethod>>> prepared;  ///< [terrain][spec]
-  std::vector<std::vector<double>> prepare_s;                     ///< [terrain][spec]
-  std::vector<std::vector<std::vector<Camera>>> cameras;          ///< [terrain][trajectory][frame]
+  std::vector<std::vector<std::unique_ptr<LodMethod>>> prepared;  ///< [subject][spec]; null: takes no mesh
+  std::vector<std::vector<double>> prepare_s;                     ///< [subject][spec]
+  std::vector<std::vector<std::vector<Camera>>> cameras;          ///< [subject][trajectory][frame]; empty: not flown
 
   [[nodiscard]] const Terrain& terrain(std::size_t t) const { return grounds[t].front()->terrain; }
   [[nodiscard]] const TerrainStage& ground(std::size_t t, std::size_t spec) const {
@@ -98,17 +100,90 @@ std::vector<MethodSpec> kept_methods(const Suite& suite, const std::vector<std::
   return kept;
 }
 
-std::string run_id(const Suite& suite, std::size_t terrain, std::size_t trajectory, const Entry& entry) {
+std::unique_ptr<TerrainStage> make_ground(const ObjectScene& scene, const oracle::RayDevice& device) {
+  auto ground = std::make_unique<TerrainStage>();
+  ground->subject = Subject::mesh;
+  ground->reference = scene.whole;
+  ground->surface = std::make_unique<oracle::RaySurface>(device, ground->reference);
+  return ground;
+}
+
+Subject kind_of(const Suite& suite, std::size_t subject) {
+  return subject < suite.terrains.size() ? Subject::terrain : Subject::mesh;
+}
+
+const std::string& id_of(const Suite& suite, std::size_t subject) {
+  const std::size_t terrains = suite.terrains.size();
+  return subject < terrains ? suite.terrains[subject].id : suite.meshes[subject - terrains].id;
+}
+
+bool takes(const MethodSpec& spec, Subject subject) {
+  return subject == Subject::terrain || find_method(spec.id).method->takes_objects;
+}
+
+/// A method that nothing in the suite is for, or a mesh that no method takes, would be left out silently.
+void refuse_idle(const Suite& suite, const std::vector<MethodSpec>& kept) {
+  if (suite.meshes.empty()) return;
+  if (suite.terrains.empty()) {
+    for (const MethodSpec& spec : kept) {
+      if (takes(spec, Subject::mesh)) continue;
+      throw InputError(fmt::format("method {} takes terrains only, and suite {} has none; leave it out", spec.id,
+                                   suite.name));
+    }
+  }
+  if (std::none_of(suite.methods.begin(), suite.methods.end(),
+                   [](const MethodSpec& spec) { return takes(spec, Subject::mesh); })) {
+    throw InputError(fmt::format("no method of suite {} takes meshes; add a [[method]] that does, as vertex_tree",
+                                 suite.name));
+  }
+}
+
+std::string run_id(const Suite& suite, std::size_t subject, std::size_t trajectory, const Entry& entry) {
   std::string method = entry.spec->id;
   std::replace(method.begin(), method.end(), ':', '-');  // run ids name folders, on every file system
-  return fmt::format("{}.{}.{}.{}", suite.terrains[terrain].id, suite.trajectories[trajectory].id, method,
+  return fmt::format("{}.{}.{}.{}", id_of(suite, subject), suite.trajectories[trajectory].id, method,
                      entry.threshold_px);
+}
+
+/// One scene of objects with its flights, and every method that takes it prepared.
+void add_objects(Stage& stage, ObjectScene loaded, const std::vector<std::unique_ptr<LodMethod>>& makers,
+                 const oracle::RayDevice& device) {
+  const Suite& suite = *stage.suite;
+  stage.scenes.push_back(std::move(loaded));
+  const ObjectScene& scene = stage.scenes.back();
+  std::vector<std::unique_ptr<TerrainStage>> grounds;
+  grounds.push_back(make_ground(scene, device));
+  std::vector<std::vector<Camera>> flights;
+  for (const TrajectorySpec& spec : suite.trajectories) {
+    flights.emplace_back();
+    if (spec.around != Subject::mesh) continue;
+    flights.back() = make_trajectory(spec, scene, suite.fov_y_deg, suite.width_px, suite.height_px);
+  }
+  std::vector<std::unique_ptr<LodMethod>> prepared(makers.size());
+  std::vector<double> seconds(makers.size(), 0.0);
+  for (std::size_t s = 0; s < makers.size(); ++s) {
+    if (!takes(stage.specs[s], Subject::mesh)) continue;
+    prepared[s] = makers[s]->clone();
+    const Clock::time_point start = Clock::now();
+    try {
+      prepared[s]->prepare_objects(scene.objects);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("mesh '{}': {} cannot take it: {}", scene.id, stage.specs[s].id, error.what()));
+    }
+    seconds[s] = seconds_since(start);
+  }
+  stage.grounds.push_back(std::move(grounds));
+  stage.cameras.push_back(std::move(flights));
+  stage.ground_of.emplace_back(makers.size(), 0);
+  stage.prepared.push_back(std::move(prepared));
+  stage.prepare_s.push_back(std::move(seconds));
 }
 
 Stage set_up(const Suite& suite, const RunOptions& options, const oracle::RayDevice& device) {
   Stage stage;
   stage.suite = &suite;
   stage.specs = kept_methods(suite, options.methods);
+  refuse_idle(suite, stage.specs);
   // Cheap refusals first: a misspelt method should not wait for a raster to load.
   std::vector<std::unique_ptr<LodMethod>> makers;
   for (std::size_t s = 0; s < stage.specs.size(); ++s) {
@@ -123,7 +198,9 @@ Stage set_up(const Suite& suite, const RunOptions& options, const oracle::RayDev
     const Terrain& terrain = grounds.front()->terrain;
     std::vector<std::vector<Camera>> flights;
     for (const TrajectorySpec& spec : suite.trajectories) {
-      flights.push_back(make_trajectory(spec, terrain, suite.fov_y_deg, suite.width_px, suite.height_px));
+      flights.emplace_back();
+      if (spec.around != Subject::terrain) continue;
+      flights.back() = make_trajectory(spec, terrain, suite.fov_y_deg, suite.width_px, suite.height_px);
     }
     stage.cameras.push_back(std::move(flights));
     std::vector<std::unique_ptr<LodMethod>> prepared;
@@ -142,6 +219,7 @@ Stage set_up(const Suite& suite, const RunOptions& options, const oracle::RayDev
     stage.prepared.push_back(std::move(prepared));
     stage.prepare_s.push_back(std::move(seconds));
   }
+  for (const MeshSource& source : suite.meshes) add_objects(stage, load_objects(source), makers, device);
   return stage;
 }
 
@@ -159,6 +237,42 @@ verdict::TerrainFacts terrain_facts(const Terrain& terrain) {
           terrain.lowest_m(),
           terrain.highest_m(),
           oracle::diagonal_ambiguity_m(terrain)};
+}
+
+verdict::MeshFacts mesh_facts(const ObjectScene& scene) {
+  verdict::MeshFacts facts;
+  facts.id = scene.id;
+  facts.objects = scene.objects.size();
+  facts.triangles = scene.whole.triangles.size();
+  facts.vertices = scene.whole.positions.size();
+  facts.center = scene.center;
+  facts.radius_m = scene.radius_m;
+  facts.object_radius_m = scene.object_radius_m;
+  return facts;
+}
+
+/// A camera path around one subject, with the entries that fly it; their runs stand in a row.
+struct Task {
+  std::size_t subject = 0, trajectory = 0;
+  std::vector<std::size_t> entries;
+  std::size_t first_run = 0;
+};
+
+std::vector<Task> tasks_of(const Stage& stage) {
+  std::vector<Task> tasks;
+  std::size_t runs = 0;
+  for (std::size_t subject = 0; subject < stage.grounds.size(); ++subject) {
+    for (std::size_t k = 0; k < stage.suite->trajectories.size(); ++k) {
+      if (stage.cameras[subject][k].empty()) continue;
+      Task task{subject, k, {}, runs};
+      for (std::size_t e = 0; e < stage.entries.size(); ++e) {
+        if (stage.prepared[subject][stage.entries[e].spec_index] != nullptr) task.entries.push_back(e);
+      }
+      runs += task.entries.size();
+      if (!task.entries.empty()) tasks.push_back(std::move(task));
+    }
+  }
+  return tasks;
 }
 
 /// What the tasks share while they run; every task writes its own slots only.
@@ -205,15 +319,16 @@ double mean_depth(const oracle::PixelHits& hits) {
   return count == 0 ? std::numeric_limits<double>::infinity() : sum_m / static_cast<double>(count);
 }
 
-/// Flies all entries along one trajectory over one terrain. `runs` and `timings` have one slot an entry.
-void fly(const Stage& stage, std::size_t terrain, std::size_t trajectory, const oracle::RayDevice& device,
-         verdict::RunVerdict* runs, verdict::RunTiming* timings, Progress& progress) {
-  const std::vector<std::unique_ptr<TerrainStage>>& grounds = stage.grounds[terrain];
-  const std::vector<Camera>& cameras = stage.cameras[terrain][trajectory];
+/// Flies all entries of a task. `runs` and `timings` have one slot an entry.
+void fly(const Stage& stage, const Task& task, const oracle::RayDevice& device, verdict::RunVerdict* runs,
+         verdict::RunTiming* timings, Progress& progress) {
+  const std::size_t subject = task.subject;
+  const std::vector<std::unique_ptr<TerrainStage>>& grounds = stage.grounds[subject];
+  const std::vector<Camera>& cameras = stage.cameras[subject][task.trajectory];
   std::vector<std::unique_ptr<Flight>> flights;
-  for (std::size_t e = 0; e < stage.entries.size(); ++e) {
-    flights.push_back(std::make_unique<Flight>(new_flyer(stage, terrain, stage.entries[e]),
-                                               stage.ground(terrain, stage.entries[e].spec_index), device));
+  for (const std::size_t e : task.entries) {
+    flights.push_back(std::make_unique<Flight>(new_flyer(stage, subject, stage.entries[e]),
+                                               stage.ground(subject, stage.entries[e].spec_index), device));
   }
   std::vector<FrameScene> scenes = scenes_of(cameras);
   double mean_depth_m = std::numeric_limits<double>::infinity();  // of what the frame before saw
@@ -229,7 +344,8 @@ void fly(const Stage& stage, std::size_t terrain, std::size_t trajectory, const 
       tbb::parallel_for(std::size_t{0}, flights.size(), [&](std::size_t e) {
         const Clock::time_point start = Clock::now();
         FrameScene scene = scenes[f];
-        scene.reference_hits = &seen[stage.ground_of[terrain][stage.entries[e].spec_index]];
+        const Entry& entry = stage.entries[task.entries[e]];
+        scene.reference_hits = &seen[stage.ground_of[subject][entry.spec_index]];
         runs[e].frames.push_back(flights[e]->next(scene));
         timings[e].update_ms.push_back(flights[e]->last_update_ms());
         timings[e].oracle_s += seconds_since(start) - flights[e]->last_update_ms() * 1e-3;
@@ -250,20 +366,29 @@ struct Scene {
   std::size_t flight = 0, entry = 0;
 };
 
+double error_px(const verdict::RunVerdict& run) {
+  const oracle::ImageError& image = run.summary.image;
+  return run.subject == Subject::mesh ? image.silhouette_max_px : image.displacement_px.p99;
+}
+
 /// What to show of a method over a terrain: the frame with the widest visible crack or, where there is none,
-/// the frame with the largest p99 displacement at the method's middle threshold; the first among equals.
-Scene worst_scene(const Stage& stage, const verdict::SuiteVerdict& verdict, std::size_t terrain,
-                  std::size_t spec) {
+/// the frame with the largest p99 displacement (mesh: silhouette distance) at the method's middle threshold; the
+/// first among equals.
+Scene worst_scene(const Stage& stage, const std::vector<Task>& tasks, const verdict::SuiteVerdict& verdict,
+                  std::size_t subject, std::size_t spec) {
   std::vector<std::size_t> mine;
   for (std::size_t e = 0; e < stage.entries.size(); ++e) {
     if (stage.entries[e].spec_index == spec) mine.push_back(e);
   }
-  const std::size_t flights = stage.suite->trajectories.size();
   Scene widest, farthest;
   double gap_px = 0;
-  for (std::size_t k = 0; k < flights; ++k) {
-    for (const std::size_t e : mine) {
-      const verdict::RunVerdict& run = verdict.runs[(terrain * flights + k) * stage.entries.size() + e];
+  for (const Task& task : tasks) {
+    if (task.subject != subject) continue;
+    const std::size_t k = task.trajectory;
+    for (std::size_t place = 0; place < task.entries.size(); ++place) {
+      const std::size_t e = task.entries[place];
+      if (stage.entries[e].spec_index != spec) continue;
+      const verdict::RunVerdict& run = verdict.runs[task.first_run + place];
       for (const verdict::FrameVerdict& frame : run.frames) {
         if (frame.largest_gap_px > gap_px) {
           gap_px = frame.largest_gap_px;
@@ -271,8 +396,7 @@ Scene worst_scene(const Stage& stage, const verdict::SuiteVerdict& verdict, std:
         }
       }
       if (e != mine[mine.size() / 2] || run.frames.empty()) continue;
-      if (farthest.run == nullptr ||
-          run.summary.image.displacement_px.p99 > farthest.run->summary.image.displacement_px.p99) {
+      if (farthest.run == nullptr || error_px(run) > error_px(*farthest.run)) {
         farthest = {&run, run.summary.worst_frame, k, e};
       }
     }
@@ -280,12 +404,13 @@ Scene worst_scene(const Stage& stage, const verdict::SuiteVerdict& verdict, std:
   return widest.run != nullptr ? widest : farthest;
 }
 
-std::vector<verdict::FramePictures> draw_worst(const Stage& stage, const verdict::SuiteVerdict& verdict,
+std::vector<verdict::FramePictures> draw_worst(const Stage& stage, const std::vector<Task>& tasks,
+                                               const verdict::SuiteVerdict& verdict,
                                                const oracle::RayDevice& device) {
   std::vector<PictureOrder> orders;
   for (std::size_t t = 0; t < stage.grounds.size(); ++t) {
     for (std::size_t s = 0; s < stage.specs.size(); ++s) {
-      const Scene scene = worst_scene(stage, verdict, t, s);
+      const Scene scene = worst_scene(stage, tasks, verdict, t, s);
       if (scene.run == nullptr) continue;
       orders.push_back({scene.run->id, scene.run->threshold_px, scene.frame, &stage.ground(t, s),
                         &stage.cameras[t][scene.flight], [&stage, t, entry = scene.entry] {
@@ -310,49 +435,49 @@ SuiteOutcome run_in_arena(const Suite& suite, const RunOptions& options, int job
   verdict.width_px = suite.width_px;
   verdict.height_px = suite.height_px;
   verdict.fov_y_deg = suite.fov_y_deg;
-  for (std::size_t t = 0; t < stage.grounds.size(); ++t) {
+  for (std::size_t t = 0; t < suite.terrains.size(); ++t) {
     verdict.terrains.push_back(terrain_facts(stage.terrain(t)));
   }
+  for (const ObjectScene& scene : stage.scenes) verdict.meshes.push_back(mesh_facts(scene));
 
-  const std::size_t flights = suite.trajectories.size();
-  const std::size_t tasks = stage.grounds.size() * flights;
-  const std::size_t entries = stage.entries.size();
-  verdict.runs.resize(tasks * entries);
-  outcome.timing.runs.resize(tasks * entries);
+  const std::vector<Task> tasks = tasks_of(stage);
   Progress progress{options};
-  for (std::size_t task = 0; task < tasks; ++task) {
-    const std::size_t t = task / flights;
-    const std::size_t k = task % flights;
-    progress.total += entries * stage.cameras[t][k].size();
-    for (std::size_t e = 0; e < entries; ++e) {
-      verdict::RunVerdict& run = verdict.runs[task * entries + e];
-      run.id = run_id(suite, t, k, stage.entries[e]);
-      run.terrain = suite.terrains[t].id;
-      run.trajectory = suite.trajectories[k].id;
-      run.method = stage.entries[e].spec->id;
-      run.threshold_px = stage.entries[e].threshold_px;
-      outcome.timing.runs[task * entries + e].run = run.id;
-      outcome.timing.runs[task * entries + e].prepare_s = stage.prepare_s[t][stage.entries[e].spec_index];
+  for (const Task& task : tasks) {
+    progress.total += task.entries.size() * stage.cameras[task.subject][task.trajectory].size();
+    for (const std::size_t e : task.entries) {
+      const Entry& entry = stage.entries[e];
+      verdict::RunVerdict& run = verdict.runs.emplace_back();
+      run.id = run_id(suite, task.subject, task.trajectory, entry);
+      run.subject = kind_of(suite, task.subject);
+      run.terrain = id_of(suite, task.subject);
+      run.trajectory = suite.trajectories[task.trajectory].id;
+      run.method = entry.spec->id;
+      run.threshold_px = entry.threshold_px;
+      verdict::RunTiming& timing = outcome.timing.runs.emplace_back();
+      timing.run = run.id;
+      timing.prepare_s = stage.prepare_s[task.subject][entry.spec_index];
     }
   }
 
   tbb::parallel_for(
-      std::size_t{0}, tasks,
-      [&](std::size_t task) {
+      std::size_t{0}, tasks.size(),
+      [&](std::size_t k) {
         if (progress.cancelled()) return;
-        fly(stage, task / flights, task % flights, device, &verdict.runs[task * entries],
-            &outcome.timing.runs[task * entries], progress);
+        fly(stage, tasks[k], device, &verdict.runs[tasks[k].first_run],
+            &outcome.timing.runs[tasks[k].first_run], progress);
       },
       tbb::simple_partitioner{});
 
   verdict.interrupted = progress.cancelled();
-  if (options.pictures && !verdict.interrupted) outcome.pictures = draw_worst(stage, verdict, device);
+  if (options.pictures && !verdict.interrupted) outcome.pictures = draw_worst(stage, tasks, verdict, device);
   if (verdict.interrupted) {
     // Only whole flights count; a run cut short would look like a shorter one that passed.
     std::size_t kept = 0;
+    std::vector<std::size_t> frames;
+    for (const Task& task : tasks)
+      frames.insert(frames.end(), task.entries.size(), stage.cameras[task.subject][task.trajectory].size());
     for (std::size_t r = 0; r < verdict.runs.size(); ++r) {
-      const std::size_t task = r / entries;
-      if (verdict.runs[r].frames.size() != stage.cameras[task / flights][task % flights].size()) continue;
+      if (verdict.runs[r].frames.size() != frames[r]) continue;
       if (kept != r) {
         verdict.runs[kept] = std::move(verdict.runs[r]);
         outcome.timing.runs[kept] = std::move(outcome.timing.runs[r]);

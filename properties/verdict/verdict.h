@@ -15,6 +15,7 @@
 #include "oracle/vertical.h"
 #include "scenarios/camera.h"
 #include "scenarios/raster.h"
+#include "scenarios/trajectory.h"
 
 /// What a run found out, as plain data: the only thing that reports see.
 namespace plumbline::verdict {
@@ -57,6 +58,7 @@ struct StabilitySummary {
 
 struct FrameVerdict {
   int index = 0;
+  Subject subject = Subject::terrain;  ///< what is asked: was_asked()
   Camera camera;
   std::size_t triangles = 0;
   std::size_t vertices = 0;
@@ -79,6 +81,7 @@ struct FrameVerdict {
 /// the extremes; nodes is the largest.
 struct RunSummary {
   std::size_t frames = 0;
+  Subject subject = Subject::terrain;
   double triangles = 0, vertices = 0;
   std::size_t triangles_min = 0, triangles_max = 0;
   oracle::ConformityCounts conformity;
@@ -90,7 +93,9 @@ struct RunSummary {
   oracle::ShapeReport shape;
   StabilitySummary stability;
   CounterFigures counters;
-  int worst_frame = 0;  ///< index of the frame with the largest p99 displacement, the first among equals
+  /// Index of the frame with the largest p99 displacement, of a mesh: with the largest silhouette distance;
+  /// the first among equals.
+  int worst_frame = 0;
 };
 
 /// A run's figures over its trajectory, by the rules above. A frame without judged pixels, area or triangles
@@ -107,12 +112,16 @@ struct Figure {
 };
 /// Every figure, in the order of results.json.
 std::span<const Figure> figures();
-/// One figure of a run. Throws InputError naming all figures if there is none of that path.
+/// Whether a figure makes sense for what is flown around. A mesh that is no height field has no plan to cover
+/// and no height over a point: its plan findings, vertical_m, displacement_px and shape are not asked.
+bool was_asked(Subject subject, std::string_view path);
+/// One figure of a run; NaN if it was not asked. Throws InputError naming all figures if there is none of that path.
 double figure_value(const RunSummary& summary, std::string_view path);
 
 struct RunVerdict {
-  std::string id;  ///< "<terrain>.<trajectory>.<method>.<threshold>"
-  std::string terrain;
+  std::string id;  ///< "<terrain or mesh>.<trajectory>.<method>.<threshold>"
+  Subject subject = Subject::terrain;
+  std::string terrain;  ///< id of the terrain, or of the mesh
   std::string trajectory;
   std::string method;
   double threshold_px = 0;
@@ -125,6 +134,14 @@ struct TerrainFacts {
   int columns = 0, rows = 0;
   double spacing_m = 0, lowest_m = 0, highest_m = 0;
   double diagonal_ambiguity_m = 0;  ///< largest gap between the two ways to split a cell
+};
+
+/// A scene of objects.
+struct MeshFacts {
+  std::string id;
+  std::size_t objects = 0, triangles = 0, vertices = 0;  ///< of the full scene
+  Vec3 center;                                           ///< of the scene's box, metres
+  double radius_m = 0, object_radius_m = 0;              ///< of the balls around the scene and one object
 };
 
 struct GateVerdict {
@@ -140,7 +157,8 @@ struct SuiteVerdict {
   int width_px = 0, height_px = 0;
   double fov_y_deg = 0;
   std::vector<TerrainFacts> terrains;
-  std::vector<RunVerdict> runs;    ///< terrain, trajectory, method, threshold: the suite file's order
+  std::vector<MeshFacts> meshes;
+  std::vector<RunVerdict> runs;    ///< terrain (then mesh), trajectory, method, threshold: the suite file's order
   std::vector<GateVerdict> gates;  ///< run order, then gate order
   std::vector<std::string>
       vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
@@ -171,7 +189,7 @@ struct FramePictures {
   double threshold_px = 0;
   Raster shaded;           ///< the method's mesh with wireframe; shade in [0, 1], NaN sky
   Raster reference;        ///< the full surface, likewise, without wireframe
-  Raster displacement_px;  ///< NaN where nothing was judged
+  Raster displacement_px;  ///< NaN where nothing was judged; of a mesh: parallax, +∞ where only one is seen
 };
 
 }  // namespace plumbline::verdict
