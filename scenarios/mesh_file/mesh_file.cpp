@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "scenarios/mesh_file/scanner.h"
 
@@ -169,32 +166,6 @@ std::vector<Mesh> triangulate_parts(const MeshFile& file) {
     }
     for (const std::uint32_t v : used) index[v] = kNew;
     out.push_back(triangulate(part));
-  }
-  return out;
-}
-
-Mesh welded(const Mesh& mesh) {
-  std::vector<std::uint32_t> first(mesh.positions.size());
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); };
-  std::map<std::array<std::uint64_t, 3>, std::uint32_t> seen;
-  for (std::uint32_t v = 0; v < first.size(); ++v) {
-    const Vec3 p = mesh.positions[v];
-    first[v] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z)}, v).first->second;
-  }
-  Mesh out;
-  constexpr std::uint32_t kNew = 0xffffffff;
-  std::vector<std::uint32_t> index(mesh.positions.size(), kNew);
-  for (auto t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = first[v];
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    for (std::uint32_t& v : t) {
-      if (index[v] == kNew) {
-        index[v] = static_cast<std::uint32_t>(out.positions.size());
-        out.positions.push_back(mesh.positions[v]);
-      }
-      v = index[v];
-    }
-    out.triangles.push_back(t);
   }
   return out;
 }

@@ -367,6 +367,17 @@ TEST(Welded, ClosesSeamsAndDropsWhatCollapses) {
   EXPECT_EQ(closed.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+TEST(CutToManifold, GivesEachFanItsVertexAndBadEdgesBorders) {
+  // Two triangles that meet in a vertex; three on one edge; two that run the same way.
+  const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  EXPECT_EQ(cut_to_manifold({positions, {{0, 1, 2}, {0, 3, 4}}}).positions.size(), 6U);
+  EXPECT_EQ(cut_to_manifold({positions, {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}}).positions.size(), 9U);
+  EXPECT_EQ(cut_to_manifold({positions, {{0, 1, 2}, {0, 1, 3}}}).positions.size(), 6U);
+  const Mesh sound{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  EXPECT_EQ(cut_to_manifold(sound).positions, sound.positions);
+  EXPECT_EQ(cut_to_manifold(sound).triangles, sound.triangles);
+}
+
 TEST(GltfModels, TheTwoCylinderEngine) {
   const MeshFile engine =
       read_mesh_file(std::string(kModels) + "2CylinderEngine-glTF-Binary/2CylinderEngine.glb");
