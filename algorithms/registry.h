@@ -23,6 +23,7 @@ enum class Promise {
   exact_at_zero,            ///< at a vanishing threshold every sample is met
   symmetric,                ///< commutes with the eight symmetries of the grid
   threshold_blind,          ///< ignores the threshold (one run serves all)
+  camera_blind,             ///< ignores the camera (one mesh a threshold)
   screen_error_within_tau,  ///< no point of the picture is displaced by more than the threshold
   continuous_in_camera,     ///< while the camera stands still, merging changes nothing visible
 };

@@ -70,6 +70,8 @@ std::string_view promise_name(Promise promise) {
       return "symmetric";
     case Promise::threshold_blind:
       return "threshold_blind";
+    case Promise::camera_blind:
+      return "camera_blind";
     case Promise::screen_error_within_tau:
       return "screen_error_within_tau";
     case Promise::continuous_in_camera:

@@ -10,8 +10,8 @@ namespace plumbline {
 
 MethodDescription describe_edge_collapse() {
   using enum Promise;
-  const std::vector<Promise> promises = {covers_domain, monotone_in_tau, idempotent, path_independent,
-                                         exact_at_zero};
+  const std::vector<Promise> promises = {covers_domain,    monotone_in_tau, idempotent,
+                                         path_independent, exact_at_zero,   camera_blind};
   return {
       .id = "edge_collapse",
       .title = "CGAL's edge collapse",

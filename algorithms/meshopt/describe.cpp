@@ -17,7 +17,7 @@ MethodDescription describe_meshopt() {
       .section = "reference",
       .variants = {{"",
                     "to the count, whatever the error",
-                    {covers_domain, idempotent, path_independent, exact_at_zero}}},
+                    {covers_domain, idempotent, path_independent, exact_at_zero, camera_blind}}},
       .options = {decimation::triangles_at_1px_option()},
       .claims = {},
       .takes_objects = true,

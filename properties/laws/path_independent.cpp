@@ -40,7 +40,7 @@ LawOutcome check(const LawInput& input) {
   method->update(last, frame);
   if (auto outcome = differs("after the flight and reset()", "reset_forgets_not")) return *outcome;
 
-  if (!path_mattered && !is_threshold_blind(input))
+  if (!path_mattered && !is_threshold_blind(input) && !is_camera_blind(input))
     return vacuous("every frame of the flight has the same mesh");
   return held();
 }

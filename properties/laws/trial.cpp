@@ -133,4 +133,8 @@ bool is_threshold_blind(const LawInput& input) {
   return !input.make && find_method(input.method).promises(Promise::threshold_blind);
 }
 
+bool is_camera_blind(const LawInput& input) {
+  return !input.make && find_method(input.method).promises(Promise::camera_blind);
+}
+
 }  // namespace plumbline::properties

@@ -46,6 +46,8 @@ oracle::Finding law_finding(std::string kind, Vec3 at);
 
 /// Whether the chosen method ignores the threshold, so that one level of detail is all there is to judge.
 bool is_threshold_blind(const LawInput& input);
+/// Whether the method promises to ignore the camera.
+bool is_camera_blind(const LawInput& input);
 
 // Each law's maker, defined in the file named after the law.
 Law law_conforming();

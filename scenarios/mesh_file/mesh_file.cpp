@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 
 #include "scenarios/mesh_file/scanner.h"
@@ -63,7 +64,10 @@ constexpr std::size_t kLongestConcave = 4096;
 
 }  // namespace
 
-MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
+namespace {
+
+MeshFile parse(std::string_view bytes, std::string_view name,
+               const std::optional<std::filesystem::path>& folder) {
   using namespace mesh_file;
   const auto ends_in = [&](std::string_view lower) {
     return name.size() >= lower.size() &&
@@ -71,6 +75,8 @@ MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
                lower.begin(), lower.end(), name.end() - static_cast<std::ptrdiff_t>(lower.size()),
                [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b + 32) : b); });
   };
+  if (bytes.starts_with("glTF") || ends_in(".glb") || ends_in(".gltf"))
+    return parse_gltf(bytes, name, folder);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
   if (ends_in(".obj")) return parse_obj(bytes, name);
   if (ends_in(".off") || bytes.starts_with("OFF")) return parse_off(bytes, name);
@@ -83,8 +89,12 @@ MeshFile parse_mesh(std::string_view bytes, std::string_view name) {
     if (bytes.size() >= 84) return parse_stl_binary(bytes, name);
   }
   throw InputError(
-      fmt::format("{}: no mesh format that is read here; PLY, OBJ, OFF and STL are", one_line(name)));
+      fmt::format("{}: no mesh format that is read here; PLY, OBJ, OFF, STL and glTF are", one_line(name)));
 }
+
+}  // namespace
+
+MeshFile parse_mesh(std::string_view bytes, std::string_view name) { return parse(bytes, name, {}); }
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
   std::error_code error;
@@ -94,7 +104,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (!in)
     throw InputError(fmt::format("cannot read {}: no such file, or no permission", one_line(path.string())));
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return parse_mesh(bytes, path.string());
+  return parse(bytes, path.string(), path.parent_path());
 }
 
 Mesh triangulate(const MeshFile& file) {
@@ -131,6 +141,33 @@ Mesh triangulate(const MeshFile& file) {
     for (const auto& [a, b, c] : pieces) mesh.triangles.push_back({corner[a], corner[b], corner[c]});
   }
   return mesh;
+}
+
+std::vector<Mesh> triangulate_parts(const MeshFile& file) {
+  if (file.part_ends.empty()) return {triangulate(file)};
+  std::vector<Mesh> out;
+  constexpr std::uint32_t kNew = 0xffffffff;
+  std::vector<std::uint32_t> index(file.positions.size(), kNew);
+  std::size_t polygon = 0;
+  for (const std::size_t part_end : file.part_ends) {
+    MeshFile part;
+    std::vector<std::uint32_t> used;
+    for (; polygon < part_end; ++polygon) {
+      for (std::size_t k = polygon == 0 ? 0 : file.ends[polygon - 1]; k < file.ends[polygon]; ++k) {
+        std::uint32_t& here = index[file.corners[k]];
+        if (here == kNew) {
+          here = static_cast<std::uint32_t>(part.positions.size());
+          part.positions.push_back(file.positions[file.corners[k]]);
+          used.push_back(file.corners[k]);
+        }
+        part.corners.push_back(here);
+      }
+      part.ends.push_back(part.corners.size());
+    }
+    for (const std::uint32_t v : used) index[v] = kNew;
+    out.push_back(triangulate(part));
+  }
+  return out;
 }
 
 }  // namespace plumbline

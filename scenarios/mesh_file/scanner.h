@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -90,5 +92,8 @@ MeshFile parse_obj(std::string_view bytes, std::string_view name);
 MeshFile parse_off(std::string_view bytes, std::string_view name);
 MeshFile parse_stl_text(std::string_view bytes, std::string_view name);
 MeshFile parse_stl_binary(std::string_view bytes, std::string_view name);
+/// `folder`: where buffers in files of their own lie; none: they are refused.
+MeshFile parse_gltf(std::string_view bytes, std::string_view name,
+                    const std::optional<std::filesystem::path>& folder);
 
 }  // namespace plumbline::mesh_file

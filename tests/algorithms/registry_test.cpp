@@ -63,6 +63,10 @@ class EveryIdempotentMethod : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Registry, EveryIdempotentMethod,
                          ::testing::ValuesIn(ids_that_promise(Promise::idempotent)), test_name);
 
+class EveryCameraBlindMethod : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Registry, EveryCameraBlindMethod,
+                         ::testing::ValuesIn(ids_that_promise(Promise::camera_blind)), test_name);
+
 TEST_P(EveryMethod, IsFoundByItsId) {
   const MethodChoice choice = find_method(GetParam());
   EXPECT_TRUE(GetParam().starts_with(choice.method->id));
@@ -180,6 +184,19 @@ TEST_P(EveryMethod, IgnoresTheThresholdExactlyIfPromised) {
   EXPECT_EQ(blind, promises(Promise::threshold_blind));
 }
 
+TEST_P(EveryCameraBlindMethod, ShowsTheSameFromEverywhere) {
+  const auto method = make_method(GetParam());
+  method->prepare(terrain_);
+  method->set_threshold_px(40);  // coarser than the full mesh
+  Random random(6);
+  LodFrame first, next;
+  method->update(lattice::any_camera(random, terrain_), first);
+  for (int k = 0; k < 10; ++k) {
+    method->update(lattice::any_camera(random, terrain_), next);
+    EXPECT_TRUE(lattice::same_mesh(first, next));
+  }
+}
+
 TEST_P(EveryMethod, TakesOrRefusesOddSizes) {
   for (const auto& [columns, rows] :
        {std::pair{2, 2}, std::pair{3, 3}, std::pair{4, 7}, std::pair{5, 9}, std::pair{40, 31}}) {
@@ -239,10 +256,10 @@ TEST(Registry, EveryPromiseHasAName) {
   std::set<std::string_view> names;
   for (const Promise p :
        {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero, symmetric,
-        threshold_blind, screen_error_within_tau, continuous_in_camera}) {
+        threshold_blind, camera_blind, screen_error_within_tau, continuous_in_camera}) {
     names.insert(promise_name(p));
   }
-  EXPECT_EQ(names.size(), 10U);
+  EXPECT_EQ(names.size(), 11U);
   EXPECT_FALSE(names.contains("unknown"));
 }
 

@@ -107,7 +107,7 @@ TEST(MeshFile, BadInputIsOneClearLine) {
   EXPECT_THAT(message(std::string(84, '\xff'), "a.stl"), HasSubstr("4294967295 facets"));
   EXPECT_THAT(message("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n", "a.stl"),
               HasSubstr("1 vertices instead of 3"));
-  EXPECT_THAT(message("PK", "a.zip"), HasSubstr("PLY, OBJ, OFF and STL"));
+  EXPECT_THAT(message("PK", "a.zip"), HasSubstr("PLY, OBJ, OFF, STL and glTF"));
   EXPECT_THROW(read_mesh_file("/no/such/file.ply"), InputError);
 }
 
