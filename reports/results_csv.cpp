@@ -34,6 +34,8 @@ bool was_judged(std::string_view figure, const verdict::FrameVerdict& frame) {
   if (figure.starts_with("pop_px.")) return frame.pop_px.count > 0;
   if (figure.starts_with("vertical_m.")) return frame.vertical_m.area_m2 > 0;
   if (figure == "stability.revisit_share") return frame.stability.revisit;
+  if (figure == "economy.excess") return frame.economy.needed > 0;
+  if (figure.starts_with("economy.")) return frame.economy.slack_judged;
   return true;
 }
 

@@ -32,12 +32,18 @@ Json camera_json(const Camera& camera) {
 
 Json conformity_json(const oracle::ConformityCounts& counts, Subject subject) {
   if (subject == Subject::mesh) {  // no plan: what was not asked is null, not zero
-    return {{"crack", nullptr},     {"t_junction", nullptr},
-            {"fold_over", nullptr}, {"degenerate", counts.degenerate},
-            {"hole", nullptr},      {"overlap", nullptr},
-            {"outline", nullptr},   {"non_manifold", counts.non_manifold},
-            {"duplicate", counts.duplicate}, {"non_finite", counts.non_finite},
-            {"bad_index", counts.bad_index}, {"unused_vertex", counts.unused_vertex}};
+    return {{"crack", nullptr},
+            {"t_junction", nullptr},
+            {"fold_over", nullptr},
+            {"degenerate", counts.degenerate},
+            {"hole", nullptr},
+            {"overlap", nullptr},
+            {"outline", nullptr},
+            {"non_manifold", counts.non_manifold},
+            {"duplicate", counts.duplicate},
+            {"non_finite", counts.non_finite},
+            {"bad_index", counts.bad_index},
+            {"unused_vertex", counts.unused_vertex}};
   }
   return {{"crack", counts.crack},         {"t_junction", counts.t_junction},
           {"fold_over", counts.fold_over}, {"degenerate", counts.degenerate},
@@ -85,6 +91,25 @@ Json stability_json(const verdict::StabilitySummary& run) {
           {"revisit_share", judged(run.revisits > 0, run.revisit_share)}};
 }
 
+Json economy_json(const FrameVerdict& frame) {
+  const verdict::EconomyFigures& economy = frame.economy;
+  return {{"excess", judged(economy.needed > 0, static_cast<double>(frame.triangles) / economy.needed)},
+          {"needed_triangles", judged(economy.needed > 0, economy.needed)},
+          {"slack", judged(economy.slack_judged, economy.slack.share())},
+          {"slack_in_view", judged(economy.slack_judged, economy.slack.share_in_view())}};
+}
+
+Json economy_json(const RunSummary& run) {
+  const verdict::EconomySummary& economy = run.economy;
+  const bool any = economy.slack_frames > 0;
+  return {{"excess", judged(economy.excess_frames > 0, economy.drawn / economy.needed)},
+          {"excess_frames", economy.excess_frames},
+          {"slack", judged(any, economy.slack.share())},
+          {"slack_in_view", judged(any, economy.slack.share_in_view())},
+          {"slack_frames", economy.slack_frames},
+          {"stars_not_judged", economy.slack.not_judged}};
+}
+
 /// What a frame and a trajectory have in common, in CONTRACT's order.
 template <class Judged>
 void add_figures(Json& out, const Judged& frame) {
@@ -120,6 +145,7 @@ void add_figures(Json& out, const Judged& frame) {
                    {"p99", judged(frame.pop_px.count > 0, frame.pop_px.p99)},
                    {"judged_px", frame.pop_px.count}};
   out["stability"] = stability_json(frame.stability);
+  out["economy"] = economy_json(frame);
   out["shape"] = {{"slivers", plan ? Json(frame.shape.slivers) : Json(nullptr)},
                   {"min_quality", judged(plan, frame.shape.min_quality)},
                   {"mean_quality", judged(plan, frame.shape.mean_quality)},
@@ -219,6 +245,7 @@ Json run_json(const verdict::RunVerdict& run) {
 std::string results_json(const verdict::SuiteVerdict& verdict) {
   Json out = {{"schema", "plumbline.results/1"},
               {"suite", verdict.suite},
+              {"yardstick", verdict.yardstick.empty() ? Json(nullptr) : Json(verdict.yardstick)},
               {"pass", verdict.pass()},
               {"interrupted", verdict.interrupted},
               {"viewport", Json::array({verdict.width_px, verdict.height_px})},

@@ -61,6 +61,9 @@ inline constexpr std::array kGateFigures{
     std::string_view{"stability.path_share"},
     std::string_view{"stability.path_px"},
     std::string_view{"stability.revisit_share"},
+    std::string_view{"economy.excess"},
+    std::string_view{"economy.slack"},
+    std::string_view{"economy.slack_in_view"},
     std::string_view{"shape.slivers"},
     std::string_view{"shape.min_quality"},
 };

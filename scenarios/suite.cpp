@@ -45,7 +45,7 @@ void refuse_second(const TomlTable& table, const std::vector<Item>& earlier, con
 }
 
 MethodSpec read_method(const TomlTable& table) {
-  table.allow_only({"id", "thresholds_px", "options"});
+  table.allow_only({"id", "thresholds_px", "options", "subjects", "trajectories"});
   MethodSpec method;
   method.id = read_id(table, true);
   const TomlValue& thresholds = table.at("thresholds_px");
@@ -72,6 +72,24 @@ MethodSpec read_method(const TomlTable& table) {
     }
   }
   return method;
+}
+
+// The ids that `key` lists: each one of `known`.
+std::vector<std::string> read_chosen(const TomlTable& table, const char* key,
+                                     const std::vector<std::string>& known) {
+  std::vector<std::string> chosen;
+  const TomlValue* value = table.find(key);
+  if (value == nullptr) return chosen;
+  for (const TomlValue& element : value->array()) {
+    const std::string& id = element.text();
+    if (std::find(known.begin(), known.end(), id) == known.end()) {
+      element.fail(fmt::format("names \"{}\", which the suite does not have; did you mean \"{}\"?",
+                               one_line(id, 80), nearest_name(id, known)));
+    }
+    chosen.push_back(id);
+  }
+  if (chosen.empty()) value->fail("is empty; name at least one, or leave it out for all");
+  return chosen;
 }
 
 // Ids may hold dots, and a run's id joins four of them with dots: two runs must not come to share one.
@@ -106,7 +124,8 @@ void refuse_equal_run_ids(const Suite& suite, const TomlTable& file) {
   for (const MeshSource& mesh : suite.meshes) take(mesh.id, Subject::mesh);
 }
 
-// Every subject is flown around, and every trajectory has something to fly around: nothing is left out silently.
+// Every subject is flown around, and every trajectory has something to fly around: nothing is left out
+// silently.
 void refuse_idle(const Suite& suite, const TomlTable& file) {
   const auto flown = [&](Subject subject) {
     return std::any_of(suite.trajectories.begin(), suite.trajectories.end(),
@@ -134,7 +153,7 @@ Suite load_suite(const std::filesystem::path& path) {
   suite.path = path;
 
   const TomlTable& head = file.at("suite").table();
-  head.allow_only({"name", "viewport", "fov_y_deg"});
+  head.allow_only({"name", "viewport", "fov_y_deg", "yardstick", "slack_every"});
   suite.name = head.at("name").text();
   if (suite.name.empty() || suite.name.size() > 200 || one_line(suite.name) != suite.name) {
     head.at("name").fail("must be 1 to 200 bytes on one line; shorten it");
@@ -150,6 +169,9 @@ Suite load_suite(const std::filesystem::path& path) {
     suite.fov_y_deg = fov->positive();
     if (!(suite.fov_y_deg < 180)) fov->fail(fmt::format("is {}; give degrees below 180", suite.fov_y_deg));
   }
+
+  if (const TomlValue* yardstick = head.find("yardstick")) suite.yardstick = yardstick->text();
+  suite.slack_every = static_cast<int>(head.integer_or("slack_every", 1, kMostFrames, suite.slack_every));
 
   for (const TomlTable* table : file.tables("terrain")) {
     const std::string id = read_id(*table, false);
@@ -169,10 +191,24 @@ Suite load_suite(const std::filesystem::path& path) {
     refuse_second(*table, suite.trajectories, id);
     suite.trajectories.push_back(read_trajectory(*table, around));
   }
+  std::vector<std::string> subjects, flights;
+  for (const TerrainSource& terrain : suite.terrains) subjects.push_back(terrain.id);
+  for (const MeshSource& mesh : suite.meshes) subjects.push_back(mesh.id);
+  for (const TrajectorySpec& trajectory : suite.trajectories) flights.push_back(trajectory.id);
   for (const TomlTable* table : file.tables("method")) {
     MethodSpec method = read_method(*table);
+    method.subjects = read_chosen(*table, "subjects", subjects);
+    method.trajectories = read_chosen(*table, "trajectories", flights);
     refuse_second(*table, suite.methods, method.id);
     suite.methods.push_back(std::move(method));
+  }
+  if (const TomlValue* yardstick = head.find("yardstick")) {
+    std::vector<std::string> methods;
+    for (const MethodSpec& method : suite.methods) methods.push_back(method.id);
+    if (std::find(methods.begin(), methods.end(), suite.yardstick) == methods.end()) {
+      yardstick->fail(fmt::format("is \"{}\", which is no [[method]] of the suite; did you mean \"{}\"?",
+                                  one_line(suite.yardstick, 80), nearest_name(suite.yardstick, methods)));
+    }
   }
   if (suite.terrains.empty() && suite.meshes.empty())
     file.fail("the suite has no terrain; add a [[terrain]], or a [[mesh]]");

@@ -23,6 +23,8 @@ struct MethodSpec {
   std::string id;
   std::vector<double> thresholds_px;  ///< each > 0
   Options options;
+  std::vector<std::string> subjects{};      ///< terrains and meshes it flies over; empty: all that it takes
+  std::vector<std::string> trajectories{};  ///< flights it takes part in; empty: all
 };
 
 /// One limit of `[gate]`: the figure's path in a run's summary ("crack", "displacement_px.p99") against a
@@ -42,6 +44,9 @@ struct Suite {
   int width_px = 1280;
   int height_px = 720;
   double fov_y_deg = 60;
+  /// The method that says how many triangles a scene needs; without a run of it nothing is said.
+  std::string yardstick = "greedy_tin";
+  int slack_every = 4;                  ///< slack is measured in frames 0, this, twice this, …
   std::vector<TerrainSource> terrains;  ///< terrains or meshes may be absent, not both
   std::vector<MeshSource> meshes;
   std::vector<TrajectorySpec> trajectories;

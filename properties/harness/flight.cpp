@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "oracle/conformity.h"
+#include "oracle/economy.h"
 #include "oracle/shape.h"
 #include "oracle/soundness.h"
 #include "oracle/vertical.h"
@@ -184,6 +185,11 @@ verdict::FrameVerdict Flight::next(const FrameScene& scene) {
     left = missing_from(keys_before_, keys_now_);
     out.counters.entered = entered.size();
     out.counters.left = left.size();
+  }
+  if (scene.asks_slack && stage_.subject == Subject::terrain) {
+    out.economy.slack_judged = true;
+    out.economy.slack = oracle::measure_slack(camera, *stage_.surface, *scene.reference_hits, *judged.surface,
+                                              method_->threshold_px());
   }
   out.stability = judge_stability(scene, out, hits);
   out.stability.toggles = toggles_.next(scene.index, entered, left);

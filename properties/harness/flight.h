@@ -34,6 +34,7 @@ struct FrameScene {
   double mean_depth_m = std::numeric_limits<double>::infinity();
   bool cut = false;          ///< the camera was cut to this frame (oracle::is_cut)
   int first_visit = -1;      ///< the first frame of the flight with this camera, if that is an earlier one
+  bool asks_slack = false;   ///< O4's slack is to be measured
   bool comes_again = false;  ///< the first of several frames with this camera
 };
 
@@ -58,7 +59,8 @@ class Flight {
                                                const oracle::PixelHits& hits) const;
   /// What changes in the picture between two meshes: displacement or, on a mesh, parallax.
   [[nodiscard]] oracle::PixelFigure jump(const Camera& camera, const oracle::RaySurface& now,
-                                         const oracle::PixelHits& hits, const oracle::RaySurface& before) const;
+                                         const oracle::PixelHits& hits,
+                                         const oracle::RaySurface& before) const;
   verdict::StabilityFigures judge_stability(const FrameScene& scene, const verdict::FrameVerdict& frame,
                                             const oracle::PixelHits& hits);
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The main job: methods × subjects (terrains, then meshes) × trajectories × thresholds, as far as a trajectory
-// flies around that kind of subject and a method takes it. One task is a flight's camera path around one
-// subject; all methods and thresholds fly it side by side, so that the reference is looked at once a frame
-// for all of them.
+// The main job: methods × subjects (terrains, then meshes) × trajectories × thresholds, as far as a
+// trajectory flies around that kind of subject and a method takes it. One task is a flight's camera path
+// around one subject; all methods and thresholds fly it side by side, so that the reference is looked at once
+// a frame for all of them.
 #include "properties/harness/run_suite.h"
 
 #include <algorithm>
@@ -26,6 +26,7 @@
 #include "properties/harness/machine.h"
 #include "properties/harness/mesh_dump.h"
 #include "properties/harness/pictures.h"
+#include "properties/verdict/economy.h"
 #include "scenarios/error.h"
 
 namespace plumbline {
@@ -55,7 +56,7 @@ struct Stage {
   std::vector<Entry> entries;                                     ///< spec × threshold
   std::vector<std::vector<std::unique_ptr<LodMethod>>> prepared;  ///< [subject][spec]; null: takes no mesh
   std::vector<std::vector<double>> prepare_s;                     ///< [subject][spec]
-  std::vector<std::vector<std::vector<Camera>>> cameras;          ///< [subject][trajectory][frame]; empty: not flown
+  std::vector<std::vector<std::vector<Camera>>> cameras;  ///< [subject][trajectory][frame]; empty: not flown
 
   [[nodiscard]] const Terrain& terrain(std::size_t t) const { return grounds[t].front()->terrain; }
   [[nodiscard]] const TerrainStage& ground(std::size_t t, std::size_t spec) const {
@@ -121,20 +122,25 @@ bool takes(const MethodSpec& spec, Subject subject) {
   return subject == Subject::terrain || find_method(spec.id).method->takes_objects;
 }
 
+/// Whether an empty list, which stands for all, or a list of ids asks for this one.
+bool chosen(const std::vector<std::string>& ids, const std::string& id) {
+  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
 /// A method that nothing in the suite is for, or a mesh that no method takes, would be left out silently.
 void refuse_idle(const Suite& suite, const std::vector<MethodSpec>& kept) {
   if (suite.meshes.empty()) return;
   if (suite.terrains.empty()) {
     for (const MethodSpec& spec : kept) {
       if (takes(spec, Subject::mesh)) continue;
-      throw InputError(fmt::format("method {} takes terrains only, and suite {} has none; leave it out", spec.id,
-                                   suite.name));
+      throw InputError(fmt::format("method {} takes terrains only, and suite {} has none; leave it out",
+                                   spec.id, suite.name));
     }
   }
   if (std::none_of(suite.methods.begin(), suite.methods.end(),
                    [](const MethodSpec& spec) { return takes(spec, Subject::mesh); })) {
-    throw InputError(fmt::format("no method of suite {} takes meshes; add a [[method]] that does, as vertex_tree",
-                                 suite.name));
+    throw InputError(fmt::format(
+        "no method of suite {} takes meshes; add a [[method]] that does, as vertex_tree", suite.name));
   }
 }
 
@@ -162,13 +168,14 @@ void add_objects(Stage& stage, ObjectScene loaded, const std::vector<std::unique
   std::vector<std::unique_ptr<LodMethod>> prepared(makers.size());
   std::vector<double> seconds(makers.size(), 0.0);
   for (std::size_t s = 0; s < makers.size(); ++s) {
-    if (!takes(stage.specs[s], Subject::mesh)) continue;
+    if (!takes(stage.specs[s], Subject::mesh) || !chosen(stage.specs[s].subjects, scene.id)) continue;
     prepared[s] = makers[s]->clone();
     const Clock::time_point start = Clock::now();
     try {
       prepared[s]->prepare_objects(scene.objects);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("mesh '{}': {} cannot take it: {}", scene.id, stage.specs[s].id, error.what()));
+      throw InputError(
+          fmt::format("mesh '{}': {} cannot take it: {}", scene.id, stage.specs[s].id, error.what()));
     }
     seconds[s] = seconds_since(start);
   }
@@ -206,8 +213,14 @@ Stage set_up(const Suite& suite, const RunOptions& options, const oracle::RayDev
     std::vector<std::unique_ptr<LodMethod>> prepared;
     std::vector<double> seconds;
     std::vector<std::size_t> ground_of;
-    for (const std::unique_ptr<LodMethod>& maker : makers) {
-      std::unique_ptr<LodMethod> method = maker->clone();
+    for (std::size_t s = 0; s < makers.size(); ++s) {
+      if (!chosen(stage.specs[s].subjects, terrain.id)) {
+        prepared.emplace_back();
+        seconds.push_back(0);
+        ground_of.push_back(0);
+        continue;
+      }
+      std::unique_ptr<LodMethod> method = makers[s]->clone();
       const Clock::time_point start = Clock::now();
       method->prepare(terrain);
       seconds.push_back(seconds_since(start));
@@ -266,7 +279,9 @@ std::vector<Task> tasks_of(const Stage& stage) {
       if (stage.cameras[subject][k].empty()) continue;
       Task task{subject, k, {}, runs};
       for (std::size_t e = 0; e < stage.entries.size(); ++e) {
-        if (stage.prepared[subject][stage.entries[e].spec_index] != nullptr) task.entries.push_back(e);
+        if (stage.prepared[subject][stage.entries[e].spec_index] == nullptr) continue;
+        if (!chosen(stage.entries[e].spec->trajectories, stage.suite->trajectories[k].id)) continue;
+        task.entries.push_back(e);
       }
       runs += task.entries.size();
       if (!task.entries.empty()) tasks.push_back(std::move(task));
@@ -331,6 +346,7 @@ void fly(const Stage& stage, const Task& task, const oracle::RayDevice& device, 
                                                stage.ground(subject, stage.entries[e].spec_index), device));
   }
   std::vector<FrameScene> scenes = scenes_of(cameras);
+  for (FrameScene& scene : scenes) scene.asks_slack = scene.index % stage.suite->slack_every == 0;
   double mean_depth_m = std::numeric_limits<double>::infinity();  // of what the frame before saw
   const double step_m = oracle::median_step_m(cameras);
   for (std::size_t f = 0; f < cameras.size() && !progress.cancelled(); ++f) {
@@ -372,8 +388,8 @@ double error_px(const verdict::RunVerdict& run) {
 }
 
 /// What to show of a method over a terrain: the frame with the widest visible crack or, where there is none,
-/// the frame with the largest p99 displacement (mesh: silhouette distance) at the method's middle threshold; the
-/// first among equals.
+/// the frame with the largest p99 displacement (mesh: silhouette distance) at the method's middle threshold;
+/// the first among equals.
 Scene worst_scene(const Stage& stage, const std::vector<Task>& tasks, const verdict::SuiteVerdict& verdict,
                   std::size_t subject, std::size_t spec) {
   std::vector<std::size_t> mine;
@@ -487,6 +503,7 @@ SuiteOutcome run_in_arena(const Suite& suite, const RunOptions& options, int job
     verdict.runs.resize(kept);
     outcome.timing.runs.resize(kept);
   }
+  verdict::add_excess(verdict, suite.yardstick);
   verdict.gates = judge_gates(suite.gates, verdict.runs);
   verdict.vacuous = find_vacuous(verdict.runs);
 

@@ -102,7 +102,8 @@ void summarize_image(const std::vector<FrameVerdict>& frames, RunSummary& all) {
     all.image.silhouette_pixels += image.silhouette_pixels;
     raise(all.image.silhouette_max_px, image.silhouette_max_px);
     const bool mesh = frame.subject == Subject::mesh;
-    const bool any = mesh ? image.depth_rel.count + image.silhouette_pixels > 0 : image.displacement_px.count > 0;
+    const bool any =
+        mesh ? image.depth_rel.count + image.silhouette_pixels > 0 : image.displacement_px.count > 0;
     const double error_px = mesh ? image.silhouette_max_px : image.displacement_px.p99;
     if (any && worse(error_px, worst_p99)) {
       worst_p99 = error_px;
@@ -178,6 +179,28 @@ void summarize_stability(const std::vector<FrameVerdict>& frames, StabilitySumma
   all.lag_frames = lag.most_frames();
   all.unsettled = lag.unrecovered();
 }
+
+void summarize_economy(const std::vector<FrameVerdict>& frames, EconomySummary& all) {
+  for (const FrameVerdict& frame : frames) {
+    const EconomyFigures& economy = frame.economy;
+    if (economy.slack_judged) {
+      ++all.slack_frames;
+      all.slack.vertices += economy.slack.vertices;
+      all.slack.removable += economy.slack.removable;
+      all.slack.in_view += economy.slack.in_view;
+      all.slack.removable_in_view += economy.slack.removable_in_view;
+      all.slack.not_judged += economy.slack.not_judged;
+    }
+    if (economy.needed > 0) {
+      ++all.excess_frames;
+      all.drawn += static_cast<double>(frame.triangles);
+      all.needed += economy.needed;
+    }
+  }
+}
+
+/// A figure of no frame is no number, so that no gate can pass over it.
+double or_nan(bool any, double value) { return any ? value : std::numeric_limits<double>::quiet_NaN(); }
 
 template <auto Count>
 double conformity(const RunSummary& summary) {
@@ -259,6 +282,14 @@ constexpr Figure kFigures[] = {
     {"stability.path_share", "share", stability<&Stability::path_share>},
     {"stability.path_px", "px", stability<&Stability::path_px>},
     {"stability.revisit_share", "share", stability<&Stability::revisit_share>},
+    {"economy.excess", "ratio",
+     [](const RunSummary& s) {
+       return or_nan(s.economy.excess_frames > 0, s.economy.drawn / s.economy.needed);
+     }},
+    {"economy.slack", "share",
+     [](const RunSummary& s) { return or_nan(s.economy.slack_frames > 0, s.economy.slack.share()); }},
+    {"economy.slack_in_view", "share",
+     [](const RunSummary& s) { return or_nan(s.economy.slack_frames > 0, s.economy.slack.share_in_view()); }},
     {"shape.slivers", "count", [](const RunSummary& s) { return static_cast<double>(s.shape.slivers); }},
     {"shape.min_quality", "quality", [](const RunSummary& s) { return s.shape.min_quality; }},
 };
@@ -290,6 +321,7 @@ RunSummary summarize(const std::vector<FrameVerdict>& frames) {
   summarize_vertical(frames, all.vertical_m);
   summarize_shape(frames, all.shape);
   summarize_stability(frames, all.stability);
+  summarize_economy(frames, all.economy);
   return all;
 }
 
@@ -297,17 +329,19 @@ std::span<const Figure> figures() { return kFigures; }
 
 bool was_asked(Subject subject, std::string_view path) {
   if (subject == Subject::terrain) return true;
-  constexpr std::array<std::string_view, 9> kInPlan{"crack",   "t_junction", "fold_over",      "hole",
-                                                    "overlap", "outline",    "visible_cracks", "largest_gap_m",
-                                                    "largest_gap_px"};
+  constexpr std::array<std::string_view, 9> kInPlan{"crack",          "t_junction",    "fold_over",
+                                                    "hole",           "overlap",       "outline",
+                                                    "visible_cracks", "largest_gap_m", "largest_gap_px"};
   return std::ranges::find(kInPlan, path) == kInPlan.end() && !path.starts_with("vertical_m.") &&
-         !path.starts_with("displacement_px.") && !path.starts_with("shape.");
+         !path.starts_with("displacement_px.") && !path.starts_with("economy.") &&
+         !path.starts_with("shape.");
 }
 
 double figure_value(const RunSummary& summary, std::string_view path) {
   const auto found = std::ranges::find(kFigures, path, &Figure::path);
   if (found != std::end(kFigures)) {
-    return was_asked(summary.subject, path) ? found->value(summary) : std::numeric_limits<double>::quiet_NaN();
+    return was_asked(summary.subject, path) ? found->value(summary)
+                                            : std::numeric_limits<double>::quiet_NaN();
   }
   std::string known;
   for (const Figure& figure : kFigures) known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.path);

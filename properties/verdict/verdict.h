@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "oracle/conformity.h"
+#include "oracle/economy.h"
 #include "oracle/image.h"
 #include "oracle/shape.h"
 #include "oracle/stability.h"
@@ -56,6 +57,22 @@ struct StabilitySummary {
   double revisit_share = 0;
 };
 
+/// O4 of one frame. *Needed* is what the suite's yardstick draws at the same camera and the same measured p99
+/// displacement (economy.h).
+struct EconomyFigures {
+  bool slack_judged = false;  ///< slack is measured in some frames only, for its price
+  oracle::Slack slack;
+  double needed = 0;  ///< triangles; 0: not known
+};
+
+/// O4 over a trajectory: vertices and triangles of all frames that were judged, so long frames weigh more.
+struct EconomySummary {
+  std::size_t slack_frames = 0;
+  oracle::Slack slack;
+  std::size_t excess_frames = 0;
+  double drawn = 0, needed = 0;  ///< triangles of these frames
+};
+
 struct FrameVerdict {
   int index = 0;
   Subject subject = Subject::terrain;  ///< what is asked: was_asked()
@@ -71,6 +88,7 @@ struct FrameVerdict {
   oracle::PixelFigure pop_px;  ///< count 0 on the first frame
   oracle::ShapeReport shape;
   StabilityFigures stability;
+  EconomyFigures economy;
   CounterFigures counters;
   std::vector<oracle::Finding> findings;  ///< the worst few, capped at kFindingsListed; counts are complete
   static constexpr std::size_t kFindingsListed = 8;
@@ -92,6 +110,7 @@ struct RunSummary {
   oracle::PixelFigure pop_px;
   oracle::ShapeReport shape;
   StabilitySummary stability;
+  EconomySummary economy;
   CounterFigures counters;
   /// Index of the frame with the largest p99 displacement, of a mesh: with the largest silhouette distance;
   /// the first among equals.
@@ -115,7 +134,8 @@ std::span<const Figure> figures();
 /// Whether a figure makes sense for what is flown around. A mesh that is no height field has no plan to cover
 /// and no height over a point: its plan findings, vertical_m, displacement_px and shape are not asked.
 bool was_asked(Subject subject, std::string_view path);
-/// One figure of a run; NaN if it was not asked. Throws InputError naming all figures if there is none of that path.
+/// One figure of a run; NaN if it was not asked. Throws InputError naming all figures if there is none of
+/// that path.
 double figure_value(const RunSummary& summary, std::string_view path);
 
 struct RunVerdict {
@@ -154,11 +174,13 @@ struct GateVerdict {
 
 struct SuiteVerdict {
   std::string suite;
+  std::string yardstick;  ///< the method that says how many triangles are needed; empty: none in the suite
   int width_px = 0, height_px = 0;
   double fov_y_deg = 0;
   std::vector<TerrainFacts> terrains;
   std::vector<MeshFacts> meshes;
-  std::vector<RunVerdict> runs;    ///< terrain (then mesh), trajectory, method, threshold: the suite file's order
+  std::vector<RunVerdict>
+      runs;  ///< terrain (then mesh), trajectory, method, threshold: the suite file's order
   std::vector<GateVerdict> gates;  ///< run order, then gate order
   std::vector<std::string>
       vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
