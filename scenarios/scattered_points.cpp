@@ -118,6 +118,23 @@ std::vector<Vec3> load_points(const std::filesystem::path& file, const std::stri
 
 HeightGrid grid_points(const std::vector<Vec3>& points, Vec2 south_west, int columns, int rows,
                        double spacing_m, const std::string& label) {
+  // Asked here, since qhull would print a page on standard error.
+  constexpr double kThinnest = 1e-12;  // area of the widest triangle over the square of its longest side
+  double longest2 = 0, widest = 0;
+  const Vec3 first = points.front();
+  Vec3 farthest = first;
+  for (const Vec3 p : points) {
+    const double dx = p.x - first.x, dy = p.y - first.y;
+    if (dx * dx + dy * dy <= longest2) continue;
+    longest2 = dx * dx + dy * dy;
+    farthest = p;
+  }
+  for (const Vec3 p : points) {
+    widest = std::max(widest, std::fabs((farthest.x - first.x) * (p.y - first.y) -
+                                        (farthest.y - first.y) * (p.x - first.x)));
+  }
+  if (!(widest > kThinnest * longest2))
+    throw InputError(fmt::format("{}: all points stand on one line; a terrain needs an area", label));
   std::vector<double> x, y, z;
   for (const Vec3 p : points) {
     // Near the origin, where differences of coordinates are exact enough for any triangulation.
@@ -142,8 +159,8 @@ HeightGrid grid_points(const std::vector<Vec3>& points, Vec2 south_west, int col
                      (rows - 0.5) * spacing_m, static_cast<GUInt32>(columns), static_cast<GUInt32>(rows),
                      GDT_Float64, grid.heights_m.data(), nullptr, nullptr);
   if (status != CE_None) {
-    throw InputError(fmt::format("{}: no triangulation of its points ({}); are they all on one line?", label,
-                                 one_line(CPLGetLastErrorMsg(), 120)));
+    throw InputError(
+        fmt::format("{}: GDAL cannot grid its points: {}", label, one_line(CPLGetLastErrorMsg(), 120)));
   }
   return grid;
 }

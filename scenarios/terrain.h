@@ -25,9 +25,9 @@ struct Terrain {
   std::vector<double> heights_m;  ///< row-major, row j = 0 southmost: heights_m[j * columns + i]
   /// The surveyed points inside the rectangle, if it was read from such, in the file's order; metres. Only
   /// methods on TINs look at them: the samples were interpolated between them.
-  std::vector<Vec3> points;
+  std::vector<Vec3> points{};
   /// Road polylines: corners in plan, metres; on the ground. Only methods on TINs look at them.
-  std::vector<std::vector<Vec2>> roads;
+  std::vector<std::vector<Vec2>> roads{};
 
   [[nodiscard]] std::size_t index(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i);

@@ -1,39 +1,40 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// edge_collapse: what a user of CGAL would do today. Role: a reference that knows no camera, simplified once
-// to a number of triangles.
-//
-// Paper: Lindstrom & Turk, "Fast and memory efficient polygonal simplification", IEEE Visualization 1998; as
-// implemented by CGAL's package Surface Mesh Simplification. Promises and departures: README.md.
-#include "algorithms/edge_collapse/lindstrom_turk.h"
+// edge_collapse: CGAL's edge collapse, view-independent. Role: what a CGAL user would do today (METHODS,
+// reference methods).
+#include "algorithms/edge_collapse/edge_collapse.h"
 #include "algorithms/registry.h"
-#include "algorithms/simplified/simplified.h"
 
 namespace plumbline {
 
 MethodDescription describe_edge_collapse() {
   using enum Promise;
+  const std::vector<Promise> promises = {covers_domain, monotone_in_tau, idempotent, path_independent,
+                                         exact_at_zero};
   return {
       .id = "edge_collapse",
-      .title = "CGAL's edge collapse (Lindstrom-Turk) to a triangle count, view-independent",
+      .title = "CGAL's edge collapse",
       .citation =
-          "Lindstrom & Turk, \"Fast and memory efficient polygonal simplification\", IEEE Visualization "
-          "1998; "
-          "CGAL, Surface Mesh Simplification",
+          "Cacciola, Rouxel-Labbé, Şenbaşlar, Komaromy: CGAL 5.5, Triangulated Surface Mesh Simplification; "
+          "Lindstrom, Turk: Fast and memory efficient polygonal simplification, IEEE Visualization 1998",
       .section = "reference",
-      .variants = {{"",
-                    "CGAL's default cost and placement, borders constrained",
-                    {covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero,
-                     continuous_in_camera}}},
-      .options = {simplified::triangles_option()},
+      .variants = {{"", "cost and placement by Lindstrom and Turk, CGAL's default", promises},
+                   {"garland_heckbert", "cost and placement by Garland and Heckbert's plane quadrics",
+                    promises}},
+      .options = {decimation::triangles_at_1px_option()},
       .claims = {},
       .takes_objects = true,
-      .make =
-          [](std::string_view, const Options& options) {
-            return simplified::make_simplified(edge_collapse::lindstrom_turk,
-                                               simplified::read_settings("edge_collapse", options));
-          },
+      .make = [](std::string_view variant, const Options& options) -> std::unique_ptr<LodMethod> {
+        const auto policy = variant == "garland_heckbert" ? edge_collapse::Policy::garland_heckbert
+                                                          : edge_collapse::Policy::lindstrom_turk;
+        return std::make_unique<decimation::ViewIndependent>(
+            "edge_collapse",
+            [policy](const Mesh& mesh, bool keep_border) {
+              return edge_collapse::make_simplifier(mesh, policy, keep_border);
+            },
+            decimation::read_triangles_at_1px("edge_collapse", options));
+      },
   };
 }
 

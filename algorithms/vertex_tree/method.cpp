@@ -55,13 +55,14 @@ void Object::update(const Camera& camera, double scale, Counters& counters) {
       if (cut_.present(p) && contour(p)) counters.split += cut_.force_split(p);
     }
   }
-  if (cut_.triangle_count() < target) {
-    counters.split += cut_.refine(target);
-  } else if (contour_ == ContourRule::none) {
+  if (contour_ == ContourRule::none) {
     counters.merged += cut_.coarsen(target);
   } else {
     counters.merged += cut_.coarsen(target, contour);
   }
+  // Where nodes were held, the last collapse may have taken two triangles where one was left to take, and an
+  // earlier one may be undone within the target: now, or the next frame would.
+  counters.split += cut_.refine(target);
 }
 
 void VertexTreeMethod::prepare(const Terrain& terrain) {

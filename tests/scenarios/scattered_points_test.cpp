@@ -125,7 +125,7 @@ TEST_F(PointFile, ComplaintsSayWhatIsWrong) {
       {"p.csv", "a,b,c\n1,2,3\n4,5,6\n7,8,10\n", "a CSV needs columns named x, y and z"},
       {"p.csv", "x,y,z\n1,2,3\n4,5,6\n", "holds 2 points; a terrain needs three"},
       {"p.csv", "x,y,z\n1,2,3\n1,5,6\n1,8,6\n", "all points stand on one line"},
-      {"p.csv", "x,y,z\n1,1,3\n2,2,6\n3,3,6\n", "are they all on one line?"},
+      {"p.csv", "x,y,z\n1,1,3\n2,2,6\n3,3,6\n", "all points stand on one line"},
       {"p.csv", "x,y,z\n1,1,3\nnan,2,6\n3,1,6\n", "row 2 has no place"},
       {"p.geojson", R"({"type":"Point","coordinates":[500000,4000000,1000]})", "holds 1 points"},
       {"p.geojson", R"({"type":"MultiPoint","coordinates":[[7.5,46.5,1],[7.6,46.5,1],[7.5,46.6,1]]})",
