@@ -15,6 +15,9 @@ namespace {
 /// depth. Orders such samples; it is far above any threshold.
 constexpr double kNearestShare = 0x1p-10;
 
+/// A quotient is less than another without dividing: room for the rounding of either side.
+constexpr double kSurelyLess = 1 - 0x1p-48;
+
 /// Which columns a triangle covers, cells; wider than the rounding of one division of grid numbers.
 constexpr double kRoundingCells = 1e-9;
 
@@ -72,6 +75,7 @@ void Scene::look(const Terrain& terrain, const Camera& camera) {
   }
   const std::size_t count = terrain.heights_m.size();
   seen_.resize(count);
+  scanned_.resize(count);
   sides_.resize(count);
   vertex_.assign(count, 0);
   sample_range_.assign(static_cast<std::size_t>(terrain.rows), {terrain.columns, 0});
@@ -82,12 +86,13 @@ void Scene::look(const Terrain& terrain, const Camera& camera) {
       const std::size_t s = terrain.index(i, j);
       const Vec3 v = terrain.point(i, j) - camera.position;
       Seen& seen = seen_[s];
-      seen = {dot(v, right), dot(v, camera.up), dot(v, camera.forward), 0};
+      seen = {dot(v, right), dot(v, camera.up), dot(v, camera.forward)};
+      scanned_[s] = {terrain.heights_m[s], seen.depth_m, 0};
       const double half_width = tangent_x_ * seen.depth_m, half_height = tangent_y_ * seen.depth_m;
       sides_[s] = static_cast<std::uint8_t>((seen.x < -half_width ? 1 : 0) | (seen.x > half_width ? 2 : 0) |
                                             (seen.y < -half_height ? 4 : 0) | (seen.y > half_height ? 8 : 0));
       if (sides_[s] != 0 || !(seen.depth_m > 0)) continue;
-      seen.weight_px = weight_px(seen.x, seen.y, seen.depth_m);
+      scanned_[s].weight_px = weight_px(seen.x, seen.y, seen.depth_m);
       range = {std::min(range.begin, i), i + 1};
     }
   }
@@ -106,10 +111,6 @@ double Scene::weight_px(double x, double y, double depth_m) const {
   return kappa_px_ * std::sqrt(a * a + b * b);
 }
 
-double Scene::displacement_px(double delta_m, double weight_px, double depth_m) const {
-  return std::fabs(delta_m) * weight_px / std::max(depth_m + delta_m * u_d_, depth_m * kNearestShare);
-}
-
 Worst Scene::worst_sample(const Facet& facet) {
   Worst worst;
   const auto& c = facet.corners;
@@ -120,13 +121,16 @@ Worst Scene::worst_sample(const Facet& facet) {
     const Extent columns = extent(c, j, j);
     const int begin = std::max(range.begin, static_cast<int>(std::ceil(columns.west - kRoundingCells)));
     const int end = std::min(range.end, static_cast<int>(std::floor(columns.east + kRoundingCells)) + 1);
+    if (begin >= end) continue;
+    samples_scanned += static_cast<std::uint64_t>(end - begin);
     for (int i = begin; i < end; ++i) {
-      ++samples_scanned;
       const std::size_t s = terrain_->index(i, j);
-      const Seen& seen = seen_[s];
-      if (seen.weight_px == 0 || is_vertex(s)) continue;
-      const Worst here{displacement_px(facet.z(i, j) - terrain_->heights_m[s], seen.weight_px, seen.depth_m),
-                       s};
+      const Scanned& at = scanned_[s];
+      const double delta_m = facet.z(i, j) - at.z_m;
+      const double reach = std::fabs(delta_m) * at.weight_px;
+      const double depth_m = std::max(at.depth_m + delta_m * u_d_, at.depth_m * kNearestShare);
+      if (reach <= worst.error_px * depth_m * kSurelyLess || reach == 0) continue;
+      const Worst here{reach / depth_m, s};
       if (here.before(worst)) worst = here;
     }
   }
@@ -172,6 +176,15 @@ void Scene::bound_half(const Facet& facet, int i, int j, bool upper, double enou
   // With all three corners it is a triangle of the network (delaunay.h), and met exactly.
   if (outside_all != 0 || all_vertices) return;
   ++pieces_bounded;
+
+  // Most pieces need no closer look: δ over the whole half cell, and the greatest weight of the picture.
+  double most_m = 0, least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double delta_m = facet.z(at[k].i, at[k].j) - terrain_->heights_m[s[k]];
+    most_m = std::max(most_m, std::fabs(delta_m));
+    least_m = std::min(least_m, seen_[s[k]].depth_m + delta_m * u_d_);
+  }
+  if (least_m > 0 && most_m * greatest_weight_px_ <= enough_px * least_m) return;
 
   // Linear over the half cell: value at `at[0]` and change per cell east and north.
   struct Linear {

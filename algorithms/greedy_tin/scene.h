@@ -46,7 +46,10 @@ class Scene {
   std::uint64_t samples_scanned = 0, pieces_bounded = 0;
 
   void look(const Terrain& terrain, const Camera& camera);
-  void add_vertex(std::size_t sample) { vertex_[sample] = 1; }
+  void add_vertex(std::size_t sample) {
+    vertex_[sample] = 1;
+    scanned_[sample].weight_px = 0;
+  }
   [[nodiscard]] bool is_vertex(std::size_t sample) const { return vertex_[sample] != 0; }
   /// The greatest displacement, pixels, of a sample in the picture that the facet covers and that is no
   /// vertex.
@@ -58,14 +61,17 @@ class Scene {
  private:
   struct Seen {
     double x = 0, y = 0, depth_m = 0;  ///< metres in the camera's frame
-    double weight_px = 0;              ///< κ·g; 0: outside of the picture
+  };
+  /// What a scan reads, side by side.
+  struct Scanned {
+    double z_m = 0, depth_m = 0;
+    double weight_px = 0;  ///< κ·g; 0: a vertex, or outside of the picture
   };
   struct Range {
     int begin = 0, end = 0;
   };
   struct Corner;
   struct Half;
-  [[nodiscard]] double displacement_px(double delta_m, double weight_px, double depth_m) const;
   [[nodiscard]] double weight_px(double x, double y, double depth_m) const;
   void bound_half(const Facet& facet, int i, int j, bool upper, double enough_px, Worst& worst);
 
@@ -74,6 +80,7 @@ class Scene {
   double greatest_weight_px_ = 0;  ///< κ·g at the picture's corners
   double u_x_ = 0, u_y_ = 0, u_d_ = 0;
   std::vector<Seen> seen_;            ///< by sample
+  std::vector<Scanned> scanned_;      ///< by sample
   std::vector<std::uint8_t> sides_;   ///< by sample: outside of which sides of the picture
   std::vector<std::uint8_t> vertex_;  ///< by sample
   std::vector<Range> sample_range_;   ///< by row: columns with weight
