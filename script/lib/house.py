@@ -36,7 +36,7 @@ LINE_RULES = [
     LineRule(r"/(wo" r"rk|ho" r"me|ro" r"ot)/", r"", r"^LICENSE$", "no machine's paths: make it relative, or an argument"),
     LineRule(r"[\"'=(\s]/t" r"mp/", r"", r"", "testing::TempDir(), std::filesystem::temp_directory_path() or mktemp"),
     LineRule(r"registry\.np" r"mjs\.org|/arti" r"factory/", r"", r"", "the user's npm configuration says where packages come from"),
-    LineRule(r"#include <CGAL/", CODE, r"^(oracle/[^/]*\.cpp|oracle/.*cgal.*\.h|algorithms/tin/delaunay\.cpp|algorithms/edge_collapse/cgal/|tests/)", "CGAL stays inside oracle/*.cpp, algorithms/tin/delaunay.cpp, algorithms/edge_collapse/cgal/ and tests"),
+    LineRule(r"#include <CGAL/", CODE, r"^(oracle/[^/]*\.cpp|oracle/.*cgal.*\.h|algorithms/tin/delaunay\.cpp|algorithms/(edge_collapse|greedy_tin)/cgal/|tests/)", "CGAL stays inside oracle/*.cpp, algorithms/tin/delaunay.cpp, algorithms/*/cgal/ and tests"),
     LineRule(r"#include <embree3?/", CODE, r"^(oracle/[^/]*\.cpp|oracle/.*embree.*\.h|tests/)", "Embree stays inside oracle/*.cpp and tests"),
     LineRule(r"#include <(gdal|ogr|cpl_)", CODE, r"^(scenarios/[^/]*\.cpp|tests/)", "GDAL stays inside scenarios/*.cpp"),
     LineRule(r"#include <random>|std::(s?rand|random_shuffle|random_device)\b", CODE, r"", "scenarios/random.h: the same numbers everywhere"),

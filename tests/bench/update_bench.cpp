@@ -29,7 +29,7 @@ void run(const std::string& id, const Terrain& terrain, int repetitions) {
   if (!find_method(id).promises(Promise::threshold_blind)) {
     method->set_threshold_px(threshold_for_budget(*method, flight.front()));
   }
-  const UpdateCost cost = time_updates(*method, flight, repetitions);
+  const UpdateCost cost = time_updates(*method, flight, repetitions_of(id, repetitions));
   fmt::print("{:<28}{:>10.0f}{:>11.3f}{:>11.4f}{:>9.1f}{:>12.1f}{:>11.2f}{:>9.1f}\n", id, cost.triangles,
              cost.update_s * 1e3, cost.copy_s * 1e3, cost.update_s / cost.copy_s, prepare_s * 1e3,
              heights_s * 1e3, prepare_s / heights_s);

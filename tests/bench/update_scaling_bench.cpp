@@ -30,7 +30,7 @@ int main(int count, char** arguments) {
       const auto method = plumbline::make_method(id);
       method->prepare(terrain);
       method->set_threshold_px(threshold_for_budget(*method, flight.front()));
-      costs[id].push_back(time_updates(*method, flight, brief ? 2 : 15));
+      costs[id].push_back(time_updates(*method, flight, repetitions_of(id, brief ? 2 : 15)));
     }
   }
 
