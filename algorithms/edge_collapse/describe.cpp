@@ -21,17 +21,21 @@ MethodDescription describe_edge_collapse() {
       .section = "reference",
       .variants = {{"", "cost and placement by Lindstrom and Turk, CGAL's default", promises},
                    {"garland_heckbert", "cost and placement by Garland and Heckbert's plane quadrics",
-                    promises}},
+                    promises},
+                   {"free_border",
+                    "a terrain's border may move too: no triangle is spent on keeping it",
+                    {monotone_in_tau, idempotent, path_independent, exact_at_zero, camera_blind}}},
       .options = {decimation::triangles_at_1px_option()},
       .claims = {},
       .takes_objects = true,
       .make = [](std::string_view variant, const Options& options) -> std::unique_ptr<LodMethod> {
         const auto policy = variant == "garland_heckbert" ? edge_collapse::Policy::garland_heckbert
                                                           : edge_collapse::Policy::lindstrom_turk;
+        const bool free = variant == "free_border";
         return std::make_unique<decimation::ViewIndependent>(
             "edge_collapse",
-            [policy](const Mesh& mesh, bool keep_border) {
-              return edge_collapse::make_simplifier(mesh, policy, keep_border);
+            [policy, free](const Mesh& mesh, bool keep_border) {
+              return edge_collapse::make_simplifier(mesh, policy, keep_border && !free);
             },
             decimation::read_triangles_at_1px("edge_collapse", options));
       },

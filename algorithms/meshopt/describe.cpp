@@ -17,13 +17,21 @@ MethodDescription describe_meshopt() {
       .section = "reference",
       .variants = {{"",
                     "to the count, whatever the error",
-                    {covers_domain, idempotent, path_independent, exact_at_zero, camera_blind}}},
+                    {covers_domain, idempotent, path_independent, exact_at_zero, camera_blind}},
+                   {"free_border",
+                    "a terrain's border is not locked: no triangle is spent on keeping it",
+                    {idempotent, path_independent, exact_at_zero, camera_blind}}},
       .options = {decimation::triangles_at_1px_option()},
       .claims = {},
       .takes_objects = true,
-      .make = [](std::string_view, const Options& options) -> std::unique_ptr<LodMethod> {
+      .make = [](std::string_view variant, const Options& options) -> std::unique_ptr<LodMethod> {
+        const bool free = variant == "free_border";
         return std::make_unique<decimation::ViewIndependent>(
-            "meshopt", meshopt::make_simplifier, decimation::read_triangles_at_1px("meshopt", options));
+            "meshopt",
+            [free](const Mesh& mesh, bool keep_border) {
+              return meshopt::make_simplifier(mesh, keep_border && !free);
+            },
+            decimation::read_triangles_at_1px("meshopt", options));
       },
   };
 }

@@ -140,7 +140,10 @@ std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& ru
     families[run.method][run.terrain].push_back(&run);
   }
   for (const auto& [method, grounds] : families) {
-    if (find_method(method).promises(Promise::threshold_blind)) continue;
+    const MethodChoice choice = find_method(method);
+    if (choice.promises(Promise::threshold_blind)) continue;
+    if (choice.promises(Promise::camera_blind))
+      continue;  // one level a threshold, and there may be one threshold
     // A flat terrain may need one level; a method that shows one on every terrain of the suite has no levels.
     std::size_t frames = 0;
     const bool one_level = std::all_of(grounds.begin(), grounds.end(), [&](const auto& ground) {

@@ -76,6 +76,16 @@ TEST_P(EdgeCollapse, ClonesOnTwoThreadsShowTheSame) {
   }
 }
 
+TEST(EdgeCollapseFreeBorder, GoesBelowTheBordersEdges) {
+  const Terrain terrain = lattice::rough(33, 33, 3, 1);  // 128 border edges
+  const std::size_t locked = update(*prepared("edge_collapse", terrain), 400).mesh.triangles.size();
+  const LodFrame free = update(*prepared("edge_collapse:free_border", terrain), 400);
+  EXPECT_GT(locked, 100U);
+  EXPECT_LE(free.mesh.triangles.size(), 50U);
+  EXPECT_FALSE(free.mesh.triangles.empty());
+  EXPECT_FALSE(find_method("edge_collapse:free_border").promises(Promise::covers_domain));
+}
+
 // The recorded collapses are CGAL's own run: replayed to the end they give the mesh that CGAL ends with.
 TEST(EdgeCollapseRecording, ReplayEndsWhereCgalEnds) {
   const Mesh mesh = reference_mesh(lattice::rough(33, 33, 5, 8));

@@ -51,6 +51,16 @@ TEST(Meshopt, KeepsTheBorderAndMovesNoVertex) {
   }
 }
 
+TEST(Meshopt, AFreeBorderGoesBelowTheBordersEdges) {
+  const Terrain terrain = lattice::rough(33, 33, 3, 1);  // 128 border edges
+  const std::size_t locked = update(*prepared("meshopt", terrain), 400).mesh.triangles.size();
+  const LodFrame free = update(*prepared("meshopt:free_border", terrain), 400);
+  EXPECT_GT(locked, 100U);
+  EXPECT_LE(free.mesh.triangles.size(), 50U);
+  EXPECT_FALSE(free.mesh.triangles.empty());
+  EXPECT_FALSE(find_method("meshopt:free_border").promises(Promise::covers_domain));
+}
+
 TEST(Meshopt, ClonesOnTwoThreadsShowTheSame) {
   const Terrain terrain = lattice::rough(33, 33, 3, 4);
   const auto first = prepared("meshopt", terrain, {{"triangles_at_1px", 2000.0}});

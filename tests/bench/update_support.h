@@ -126,10 +126,14 @@ inline int repetitions_of(const std::string& id, int repetitions) {
 }
 
 /// Every registered method with its variants, by full id.
+/// Methods and variants whose update can cost something: not those that hand out one mesh per threshold, made
+/// in minutes on the larger terrains. The full grid stays, as the floor.
 inline std::vector<std::string> all_method_ids() {
   std::vector<std::string> out;
   for (const MethodDescription& method : registered_methods()) {
     for (const VariantDescription& variant : method.variants) {
+      const MethodChoice choice{&method, &variant};
+      if (choice.promises(Promise::camera_blind) && !choice.promises(Promise::threshold_blind)) continue;
       out.push_back(variant.name.empty() ? method.id : method.id + ":" + variant.name);
     }
   }
