@@ -31,9 +31,12 @@ std::string matrix(const verdict::SuiteVerdict& verdict) {
   for (const FindingColumn& column : finding_columns()) {
     const bool occurs =
         std::ranges::any_of(methods, [&](const MethodDigest& m) { return m.conformity.*column.count > 0; });
+    const bool asked = verdict.runs.empty() || std::ranges::any_of(verdict.runs, [&](const auto& run) {
+      return verdict::was_asked(run.subject, column.name);
+    });
     if (occurs) {
       shown.push_back(column);
-    } else {
+    } else if (asked) {
       absent.emplace_back(column.name);
     }
   }
@@ -124,6 +127,7 @@ std::string economy(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
   for (const verdict::RunTiming& run : timing.runs) clocks[run.run] = &run;
   std::vector<Row> rows;
   for (const verdict::RunVerdict& run : verdict.runs) {
+    if (run.subject == Subject::mesh) continue;  // objects() shows these
     auto row = std::ranges::find_if(rows, [&](const Row& known) {
       return known.method == run.method && known.threshold_px == run.threshold_px;
     });
@@ -156,6 +160,57 @@ std::string economy(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
                timed ? short_number(quantile(row.update_ms, 0.95)) : "—"});
   }
   return table.empty() ? std::string() : "\n## Speed and accuracy\n\n" + table.text();
+}
+
+/// Mesh × method × threshold over all flights: objects have no plan, so silhouettes and parallax take the
+/// place of displacement.
+std::string objects(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing) {
+  struct Row {
+    std::string mesh, method;
+    double threshold_px = 0, triangles = 0, silhouette_px = 0, parallax_px = 0, depth_rel = 0;
+    std::size_t frames = 0, judged_px = 0, full = 0;
+    std::vector<double> update_ms;
+  };
+  std::map<std::string_view, const verdict::RunTiming*> clocks;
+  for (const verdict::RunTiming& run : timing.runs) clocks[run.run] = &run;
+  std::vector<Row> rows;
+  for (const verdict::RunVerdict& run : verdict.runs) {
+    if (run.subject != Subject::mesh) continue;
+    auto row = std::ranges::find_if(rows, [&](const Row& known) {
+      return known.mesh == run.terrain && known.method == run.method && known.threshold_px == run.threshold_px;
+    });
+    if (row == rows.end()) {
+      Row fresh;
+      fresh.mesh = run.terrain;
+      fresh.method = run.method;
+      fresh.threshold_px = run.threshold_px;
+      const auto facts = std::ranges::find(verdict.meshes, run.terrain, &verdict::MeshFacts::id);
+      if (facts != verdict.meshes.end()) fresh.full = facts->triangles;
+      row = rows.insert(rows.end(), std::move(fresh));
+    }
+    const verdict::RunSummary& summary = run.summary;
+    row->triangles += summary.triangles * static_cast<double>(summary.frames);
+    row->frames += summary.frames;
+    row->judged_px += summary.image.depth_rel.count + summary.image.silhouette_pixels;
+    row->silhouette_px = std::max(row->silhouette_px, summary.image.silhouette_max_px);
+    row->parallax_px = std::max(row->parallax_px, summary.image.parallax_px.p99);
+    row->depth_rel = std::max(row->depth_rel, summary.image.depth_rel.p99);
+    if (const auto clock = clocks.find(run.id); clock != clocks.end())
+      row->update_ms.insert(row->update_ms.end(), clock->second->update_ms.begin(),
+                            clock->second->update_ms.end());
+  }
+  MarkdownTable table({"mesh", "method", "τ (px)", "triangles, mean", "of", "silhouette, worst (px)",
+                       "p99 parallax, worst (px)", "p99 depth, worst (share)", "update, median (ms)"},
+                      2);
+  for (const Row& row : rows) {
+    const bool judged = row.judged_px > 0;
+    table.row({markdown_cell(row.mesh), markdown_cell(row.method), short_number(row.threshold_px),
+               row.frames == 0 ? "—" : fmt::format("{:.0f}", row.triangles / static_cast<double>(row.frames)),
+               std::to_string(row.full), judged ? short_number(row.silhouette_px) : "—",
+               judged ? short_number(row.parallax_px) : "—", judged ? short_number(row.depth_rel) : "—",
+               row.update_ms.empty() ? "—" : short_number(quantile(row.update_ms, 0.5))});
+  }
+  return table.empty() ? std::string() : "\n## Objects\n\n" + table.text();
 }
 
 /// O5 over all terrains, flights and thresholds of a method.
@@ -206,7 +261,7 @@ std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::Suit
   if (!words.sentences.empty()) out += '\n';
   for (const std::string& sentence : words.sentences) out += fmt::format("- {}\n", markdown_cell(sentence));
   out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + offenders(verdict) +
-         economy(verdict, timing) + stability(verdict);
+         economy(verdict, timing) + objects(verdict, timing) + stability(verdict);
   return out;
 }
 

@@ -5,7 +5,7 @@
 import { axis, base, chart, css, look, NARROW, tooltip } from './chart';
 import type { Option } from './chart';
 import { controls, orAll, section, select } from './controls';
-import { median, methods, results, terrains, timingOf, trajectories, worst } from './data';
+import { median, methods, overTerrains as terrains, terrainRuns, timingOf, trajectories, worst } from './data';
 import type { Figure, Run } from './data';
 import { el, short, tick } from './text';
 
@@ -45,7 +45,7 @@ function points(runs: Run[]): Point[] {
       p99Worst: worst(group.map((run) => run.summary.displacement_px.p99)),
       max: worst(group.map((run) => run.summary.displacement_px.max)),
       findings: group.reduce((sum, run) =>
-        sum + Object.values(run.summary.conformity).reduce((all, count) => all + count, 0), 0),
+        sum + Object.values(run.summary.conformity).reduce<number>((all, count) => all + (count ?? 0), 0), 0),
     };
   }).sort((a, b) => a.threshold - b.threshold);
 }
@@ -134,7 +134,7 @@ export function accuracySection(): HTMLElement {
   const trajectory = select('Trajectory', orAll(trajectories, 'all together'),
     trajectories.length < 2 ? trajectories[0] ?? '' : '', redraw);
   const error = select('Error', (Object.keys(ERRORS) as Error[]).map((value) => ({ value, label: ERRORS[value] })), 'p99', redraw);
-  const chosen = () => results.runs.filter((run) =>
+  const chosen = () => terrainRuns.filter((run) =>
     (terrain.value() === '' || run.terrain === terrain.value()) &&
     (trajectory.value() === '' || run.trajectory === trajectory.value()));
   const speed = chart('Chart: update time against displacement, a curve per method',

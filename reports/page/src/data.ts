@@ -15,8 +15,8 @@ export type FindingName = (typeof FINDINGS)[number];
 export interface Figures {
   triangles: number;
   vertices: number;
-  conformity: Record<FindingName, number>;
-  visible_cracks: number;
+  conformity: Record<FindingName, Figure>;  // of a mesh, plan findings are null: not asked
+  visible_cracks: Figure;
   largest_gap_m: Figure;
   largest_gap_px: Figure;
   vertical_m: { max: Figure; certain_max: Figure; rms: Figure; mean: Figure };
@@ -60,7 +60,8 @@ export interface Frame extends Figures {
 
 export interface Run {
   id: string;
-  terrain: string;
+  subject?: 'mesh';  // absent: a terrain
+  terrain: string;   // its id, or the mesh's
   trajectory: string;
   method: string;
   threshold_px: number;
@@ -75,6 +76,10 @@ export interface Terrain {
   diagonal_ambiguity_m: Figure;
 }
 
+export interface Mesh {
+  id: string; objects: number; triangles: number; vertices: number; radius_m: number; object_radius_m: number;
+}
+
 export interface Results {
   suite: string;
   pass: boolean;
@@ -82,6 +87,7 @@ export interface Results {
   viewport: [number, number];
   fov_y_deg: number;
   terrains: Terrain[];
+  meshes?: Mesh[];
   runs: Run[];
   gates: Gate[];
   vacuous: string[];
@@ -123,6 +129,10 @@ export const timingOf = new Map(timing.runs.map((run) => [run.run, run]));
 export function distinct<T>(values: Iterable<T>): T[] {
   return [...new Set(values)];
 }
+/** Runs over terrains; those around meshes have no plan figures and a section of their own. */
+export const terrainRuns = results.runs.filter((run) => run.subject !== 'mesh');
+export const meshRuns = results.runs.filter((run) => run.subject === 'mesh');
+export const overTerrains = distinct(terrainRuns.map((run) => run.terrain));
 export const terrains = distinct(results.runs.map((run) => run.terrain));
 export const trajectories = distinct(results.runs.map((run) => run.trajectory));
 export const methods = distinct(results.runs.map((run) => run.method));

@@ -4,8 +4,9 @@
 // The page from top to bottom. It shows what results.json and timing.json hold and decides nothing.
 import { accuracySection } from './accuracy';
 import { section } from './controls';
-import { facts, methods, results, timing, trajectories } from './data';
+import { facts, meshRuns, methods, results, terrainRuns, timing, trajectories } from './data';
 import { definitionsSection, findingsSection, gatesSection, matrixSection, terrainsSection } from './tables';
+import { objectsSection } from './objects';
 import { el, plural, short } from './text';
 import { stabilitySection } from './stability';
 import { timelineSection } from './timeline';
@@ -25,7 +26,8 @@ function header(): HTMLElement {
           : el('ul', {}, ...facts.sentences.map((sentence) => el('li', {}, sentence))))),
     el('dl', { class: 'facts' },
       fact('Judged', `${plural(frames, 'frame')} of ${plural(results.runs.length, 'run')}: ${plural(methods.length, 'method')}, ` +
-        `${plural(results.terrains.length, 'terrain')}, ${plural(trajectories.length, 'trajectory', 'trajectories')}`),
+        `${results.terrains.length > 0 || !results.meshes ? `${plural(results.terrains.length, 'terrain')}, ` : ''}` +
+        `${results.meshes ? `${plural(results.meshes.length, 'mesh', 'meshes')}, ` : ''}${plural(trajectories.length, 'trajectory', 'trajectories')}`),
       fact('Picture', `${results.viewport[0]} × ${results.viewport[1]} px, ${short(results.fov_y_deg)}° high`),
       fact('Times from', [timing.machine, timing.compiler, timing.build_type, plural(timing.jobs, 'thread'),
         `${short(timing.total_s)} s in all`].filter((part) => part !== '').join(', ')),
@@ -52,7 +54,8 @@ function picturesSection(): HTMLElement | null {
     el('figure', {}, enlargeable(source, caption), el('figcaption', {}, caption));
   return section('pictures', 'Pictures',
     el('p', { class: 'lead' }, 'The frame with the widest visible crack or, where there is none, with the largest p99 displacement. The middle picture shows each ' +
-      'pixel’s displacement from 0 to 2 τ (viridis), red beyond; the bar’s long mark is τ; grey pixels were not judged.'),
+      'pixel’s displacement from 0 to 2 τ (viridis), red beyond; the bar’s long mark is τ; grey pixels were not judged. Of a mesh: the frame with the ' +
+      'largest silhouette distance, and each pixel’s parallax; red where only one of the two surfaces is seen.'),
     ...facts.pictures.map((picture) => el('article', { class: 'triptych' },
       el('h3', {}, picture.run, el('span', {}, ` frame ${picture.frame}, τ = ${short(picture.threshold_px)} px`)),
       el('div', {}, panel(picture.mesh, 'The method’s mesh'), panel(picture.error, 'Displacement, px'),
@@ -60,7 +63,9 @@ function picturesSection(): HTMLElement | null {
 }
 
 const sections = [
-  matrixSection(), ...(results.runs.length === 0 ? [] : [accuracySection(), stabilitySection(), timelineSection()]), picturesSection(),
+  matrixSection(), ...(terrainRuns.length === 0 ? [] : [accuracySection()]),
+  ...(meshRuns.length === 0 ? [] : [objectsSection()]),
+  ...(results.runs.length === 0 ? [] : [stabilitySection(), timelineSection()]), picturesSection(),
   gatesSection(), findingsSection(), terrainsSection(), definitionsSection(),
 ].filter((part): part is HTMLElement => part !== null);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import { controls, orAll, section, select } from './controls';
 import { distinct, facts, FINDINGS, methods, results, worst } from './data';
-import type { Finding, FindingName, Frame, Run } from './data';
+import type { Figure, Finding, FindingName, Frame, Run } from './data';
 import { el, plural, short } from './text';
 
 type Cell = Node | string;
@@ -34,7 +34,8 @@ export function findingLink(name: string, text = name): HTMLElement {
 const HAZARDS: ReadonlySet<string> = new Set(['unused_vertex']);
 
 /** Sign and number, so that colour is not the only bearer: ✓ none, ▲ a hazard, ✕ a fault. */
-function countCell(name: FindingName, count: number): HTMLElement {
+function countCell(name: FindingName, count: Figure): HTMLElement {
+  if (count === null) return el('span', { title: `${name}: not asked of a mesh` }, '–');
   if (count === 0) return el('span', { class: 'good', title: `no ${name}` }, '✓');
   const hazard = HAZARDS.has(name);
   return el('a', { class: `count ${hazard ? 'warn' : 'bad'}`, href: `#finding-${name}`, title: `${count} ${name}` },
@@ -52,15 +53,16 @@ export function matrixSection(): HTMLElement {
     const runs = results.runs.filter((run) => run.method === method);
     const gates = results.gates.filter((gate) => methodOf.get(gate.run) === method);
     const failed = gates.filter((gate) => !gate.pass).length;
-    const counts = FINDINGS.map((name) => runs.reduce((sum, run) => sum + run.summary.conformity[name], 0));
+    const counts = FINDINGS.map((name) => runs.every((run) => run.summary.conformity[name] === null) ? null
+      : runs.reduce((sum, run) => sum + (run.summary.conformity[name] ?? 0), 0));
     const frames = runs.reduce((sum, run) => sum + run.summary.frames, 0);
-    const sound = frames > 0 && counts.every((count) => count === 0);
-    const visible = runs.reduce((sum, run) => sum + run.summary.visible_cracks, 0);
+    const sound = frames > 0 && counts.every((count) => !count);
+    const visible = runs.reduce((sum, run) => sum + (run.summary.visible_cracks ?? 0), 0);
     return [
       method,
       el('span', { class: sound ? 'tag good' : 'tag bad' }, sound ? '✓ sound' : '✕ not sound'),
       short(frames),
-      ...FINDINGS.map((name, place) => countCell(name, counts[place]!)),
+      ...FINDINGS.map((name, place) => countCell(name, counts[place] ?? null)),
       short(visible),
       visible === 0 ? '–' : short(worst(runs.map((run) => run.summary.largest_gap_px))),
       gates.length === 0 ? '–' : el('span', { class: failed ? 'bad' : 'good' },
@@ -137,7 +139,8 @@ export function findingsSection(): HTMLElement {
     controls(method, name), holder);
 }
 
-export function terrainsSection(): HTMLElement {
+export function terrainsSection(): HTMLElement | null {
+  if (results.terrains.length === 0) return null;
   return section('terrains', 'Terrains',
     el('p', { class: 'lead' }, 'The ambiguity is the largest gap between the two ways to split a cell: an error below it ' +
       'may be the samples’, not the method’s.'),

@@ -5,7 +5,7 @@
 import { axis, base, chart, css, look, tooltip } from './chart';
 import type { Option } from './chart';
 import { asChoices, checkbox, controls, section, select } from './controls';
-import { methods, results, terrains, thresholds, timingOf, trajectories } from './data';
+import { methods, results, terrainRuns, terrains, thresholds, timingOf, trajectories } from './data';
 import type { Figure, Frame, Run } from './data';
 import { el, short, tick } from './text';
 
@@ -27,6 +27,8 @@ const QUANTITIES: Quantity[] = [
   { label: 'differs from a fresh start', unit: 'share', of: (frame) => frame.stability.path_share },
   { label: 'vertices that toggle', unit: 'count', of: (frame) => frame.stability.toggles },
   { label: 'change under 0.01 px', unit: 'count', of: (frame) => frame.stability.jitter_vertices },
+  { label: 'silhouette, max', unit: 'px', of: (frame) => frame.silhouette_px.max, bounded: true },
+  { label: 'silhouette, pixels', unit: 'px', of: (frame) => frame.silhouette_px.pixels },
   { label: 'triangles', unit: 'count', of: (frame) => frame.triangles },
   { label: 'update time', unit: 'ms', of: (_, run, place) => timingOf.get(run.id)?.update_ms.frames[place] ?? null },
   { label: 'cracks', unit: 'count', of: (frame) => frame.conformity.crack },
@@ -93,7 +95,10 @@ export function timelineSection(): HTMLElement {
   const middle = thresholds[Math.floor((thresholds.length - 1) / 2)] ?? 1;
   const threshold = select('Threshold τ', thresholds.map((value) => ({ value: String(value), label: `${value} px` })),
     String(middle), redraw);
-  const quantity = select('Figure', QUANTITIES.map(({ label }, place) => ({ value: String(place), label })), '0', redraw);
+  // A mesh has no displacement.
+  const initial = terrainRuns.length > 0 ? 0 : QUANTITIES.findIndex(({ label }) => label === 'silhouette, max');
+  const quantity = select('Figure', QUANTITIES.map(({ label }, place) => ({ value: String(place), label })),
+    String(initial), redraw);
   const log = checkbox('logarithmic', false, redraw);
   const chosen = () => {
     const here = results.runs.filter((run) => run.terrain === terrain.value() && run.trajectory === trajectory.value());
