@@ -110,6 +110,36 @@ Json economy_json(const RunSummary& run) {
           {"stars_not_judged", economy.slack.not_judged}};
 }
 
+Json distance_json(bool any, oracle::CertifiedDistance distance) {
+  return {{"least", judged(any, distance.least_m)}, {"most", judged(any, distance.most_m)}};
+}
+
+Json space_json(const verdict::SpaceFigures& frame) {
+  const bool any = frame.judged;
+  const oracle::Likeness& likeness = frame.likeness;
+  return {{"self_intersection", any ? Json(frame.self_intersections) : Json(nullptr)},
+          {"hausdorff_m", distance_json(any, likeness.hausdorff())},
+          {"to_mesh_m", distance_json(any, likeness.to_mesh)},
+          {"from_mesh_m", distance_json(any, likeness.from_mesh)},
+          {"normal_deg",
+           {{"max", judged(any, likeness.normal_max_deg)},
+            {"mean", judged(any, likeness.normal_mean_deg)},
+            {"turned_share", judged(any, likeness.turned_share)}}},
+          {"projected_area", judged(frame.area_judged, frame.projected_area)}};
+}
+
+Json space_json(const verdict::SpaceSummary& run) {
+  const bool any = run.frames > 0;
+  return {{"self_intersection", any ? Json(run.self_intersections) : Json(nullptr)},
+          {"hausdorff_m", distance_json(any, run.hausdorff_m)},
+          {"normal_deg",
+           {{"max", judged(any, run.normal_max_deg)},
+            {"mean", judged(any, run.normal_mean_deg)},
+            {"turned_share", judged(any, run.turned_share)}}},
+          {"projected_area", judged(run.area_frames > 0, run.projected_area)},
+          {"judged_frames", run.frames}};
+}
+
 /// What a frame and a trajectory have in common, in CONTRACT's order.
 template <class Judged>
 void add_figures(Json& out, const Judged& frame) {
@@ -146,6 +176,7 @@ void add_figures(Json& out, const Judged& frame) {
                    {"judged_px", frame.pop_px.count}};
   out["stability"] = stability_json(frame.stability);
   out["economy"] = economy_json(frame);
+  if (!plan) out["space"] = space_json(frame.space);
   out["shape"] = {{"slivers", plan ? Json(frame.shape.slivers) : Json(nullptr)},
                   {"min_quality", judged(plan, frame.shape.min_quality)},
                   {"mean_quality", judged(plan, frame.shape.mean_quality)},

@@ -64,6 +64,13 @@ inline constexpr std::array kGateFigures{
     std::string_view{"economy.excess"},
     std::string_view{"economy.slack"},
     std::string_view{"economy.slack_in_view"},
+    std::string_view{"self_intersection"},
+    std::string_view{"hausdorff_m.least"},
+    std::string_view{"hausdorff_m.most"},
+    std::string_view{"normal_deg.max"},
+    std::string_view{"normal_deg.mean"},
+    std::string_view{"normal_deg.turned_share"},
+    std::string_view{"projected_area"},
     std::string_view{"shape.slivers"},
     std::string_view{"shape.min_quality"},
 };

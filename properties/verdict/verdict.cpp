@@ -199,6 +199,24 @@ void summarize_economy(const std::vector<FrameVerdict>& frames, EconomySummary& 
   }
 }
 
+void summarize_space(const std::vector<FrameVerdict>& frames, SpaceSummary& all) {
+  for (const FrameVerdict& frame : frames) {
+    const SpaceFigures& space = frame.space;
+    if (space.area_judged) {
+      ++all.area_frames;
+      raise(all.projected_area, std::fabs(space.projected_area));
+    }
+    if (!space.judged) continue;
+    ++all.frames;
+    raise(all.hausdorff_m.least_m, space.likeness.hausdorff().least_m);
+    raise(all.hausdorff_m.most_m, space.likeness.hausdorff().most_m);
+    raise(all.normal_max_deg, space.likeness.normal_max_deg);
+    raise(all.normal_mean_deg, space.likeness.normal_mean_deg);
+    raise(all.turned_share, space.likeness.turned_share);
+    all.self_intersections += space.self_intersections;
+  }
+}
+
 /// A figure of no frame is no number, so that no gate can pass over it.
 double or_nan(bool any, double value) { return any ? value : std::numeric_limits<double>::quiet_NaN(); }
 
@@ -290,6 +308,22 @@ constexpr Figure kFigures[] = {
      [](const RunSummary& s) { return or_nan(s.economy.slack_frames > 0, s.economy.slack.share()); }},
     {"economy.slack_in_view", "share",
      [](const RunSummary& s) { return or_nan(s.economy.slack_frames > 0, s.economy.slack.share_in_view()); }},
+    {"self_intersection", "count",
+     [](const RunSummary& s) {
+       return or_nan(s.space.frames > 0, static_cast<double>(s.space.self_intersections));
+     }},
+    {"hausdorff_m.least", "m",
+     [](const RunSummary& s) { return or_nan(s.space.frames > 0, s.space.hausdorff_m.least_m); }},
+    {"hausdorff_m.most", "m",
+     [](const RunSummary& s) { return or_nan(s.space.frames > 0, s.space.hausdorff_m.most_m); }},
+    {"normal_deg.max", "degrees",
+     [](const RunSummary& s) { return or_nan(s.space.frames > 0, s.space.normal_max_deg); }},
+    {"normal_deg.mean", "degrees",
+     [](const RunSummary& s) { return or_nan(s.space.frames > 0, s.space.normal_mean_deg); }},
+    {"normal_deg.turned_share", "share",
+     [](const RunSummary& s) { return or_nan(s.space.frames > 0, s.space.turned_share); }},
+    {"projected_area", "share",
+     [](const RunSummary& s) { return or_nan(s.space.area_frames > 0, s.space.projected_area); }},
     {"shape.slivers", "count", [](const RunSummary& s) { return static_cast<double>(s.shape.slivers); }},
     {"shape.min_quality", "quality", [](const RunSummary& s) { return s.shape.min_quality; }},
 };
@@ -322,13 +356,16 @@ RunSummary summarize(const std::vector<FrameVerdict>& frames) {
   summarize_shape(frames, all.shape);
   summarize_stability(frames, all.stability);
   summarize_economy(frames, all.economy);
+  summarize_space(frames, all.space);
   return all;
 }
 
 std::span<const Figure> figures() { return kFigures; }
 
 bool was_asked(Subject subject, std::string_view path) {
-  if (subject == Subject::terrain) return true;
+  const bool in_space = path == "self_intersection" || path == "projected_area" ||
+                        path.starts_with("hausdorff_m.") || path.starts_with("normal_deg.");
+  if (subject == Subject::terrain) return !in_space;
   constexpr std::array<std::string_view, 9> kInPlan{"crack",          "t_junction",    "fold_over",
                                                     "hole",           "overlap",       "outline",
                                                     "visible_cracks", "largest_gap_m", "largest_gap_px"};

@@ -11,6 +11,7 @@
 #include "oracle/conformity.h"
 #include "oracle/economy.h"
 #include "oracle/image.h"
+#include "oracle/likeness.h"
 #include "oracle/shape.h"
 #include "oracle/stability.h"
 #include "oracle/vertical.h"
@@ -73,6 +74,25 @@ struct EconomySummary {
   double drawn = 0, needed = 0;  ///< triangles of these frames
 };
 
+/// O7 of one frame of a general mesh. What is costly is measured in some frames only, as slack is.
+struct SpaceFigures {
+  bool judged = false;  ///< likeness and self-intersections were
+  oracle::Likeness likeness;
+  std::size_t self_intersections = 0;  ///< pairs of triangles
+  bool area_judged = false;
+  double projected_area = 0;  ///< signed, share of the reference's pixels
+};
+
+/// O7 over a trajectory: the worst frames; pairs are summed.
+struct SpaceSummary {
+  std::size_t frames = 0;  ///< in which likeness was judged
+  oracle::CertifiedDistance hausdorff_m;
+  double normal_max_deg = 0, normal_mean_deg = 0, turned_share = 0;
+  std::size_t self_intersections = 0;
+  std::size_t area_frames = 0;
+  double projected_area = 0;  ///< largest |share|
+};
+
 struct FrameVerdict {
   int index = 0;
   Subject subject = Subject::terrain;  ///< what is asked: was_asked()
@@ -89,6 +109,7 @@ struct FrameVerdict {
   oracle::ShapeReport shape;
   StabilityFigures stability;
   EconomyFigures economy;
+  SpaceFigures space;
   CounterFigures counters;
   std::vector<oracle::Finding> findings;  ///< the worst few, capped at kFindingsListed; counts are complete
   static constexpr std::size_t kFindingsListed = 8;
@@ -111,6 +132,7 @@ struct RunSummary {
   oracle::ShapeReport shape;
   StabilitySummary stability;
   EconomySummary economy;
+  SpaceSummary space;
   CounterFigures counters;
   /// Index of the frame with the largest p99 displacement, of a mesh: with the largest silhouette distance;
   /// the first among equals.
