@@ -32,12 +32,18 @@ Json camera_json(const Camera& camera) {
 
 Json conformity_json(const oracle::ConformityCounts& counts, Subject subject) {
   if (subject == Subject::mesh) {  // no plan: what was not asked is null, not zero
-    return {{"crack", nullptr},     {"t_junction", nullptr},
-            {"fold_over", nullptr}, {"degenerate", counts.degenerate},
-            {"hole", nullptr},      {"overlap", nullptr},
-            {"outline", nullptr},   {"non_manifold", counts.non_manifold},
-            {"duplicate", counts.duplicate}, {"non_finite", counts.non_finite},
-            {"bad_index", counts.bad_index}, {"unused_vertex", counts.unused_vertex}};
+    return {{"crack", nullptr},
+            {"t_junction", nullptr},
+            {"fold_over", nullptr},
+            {"degenerate", counts.degenerate},
+            {"hole", nullptr},
+            {"overlap", nullptr},
+            {"outline", nullptr},
+            {"non_manifold", counts.non_manifold},
+            {"duplicate", counts.duplicate},
+            {"non_finite", counts.non_finite},
+            {"bad_index", counts.bad_index},
+            {"unused_vertex", counts.unused_vertex}};
   }
   return {{"crack", counts.crack},         {"t_junction", counts.t_junction},
           {"fold_over", counts.fold_over}, {"degenerate", counts.degenerate},

@@ -106,7 +106,8 @@ void refuse_equal_run_ids(const Suite& suite, const TomlTable& file) {
   for (const MeshSource& mesh : suite.meshes) take(mesh.id, Subject::mesh);
 }
 
-// Every subject is flown around, and every trajectory has something to fly around: nothing is left out silently.
+// Every subject is flown around, and every trajectory has something to fly around: nothing is left out
+// silently.
 void refuse_idle(const Suite& suite, const TomlTable& file) {
   const auto flown = [&](Subject subject) {
     return std::any_of(suite.trajectories.begin(), suite.trajectories.end(),

@@ -58,7 +58,8 @@ class Flight {
                                                const oracle::PixelHits& hits) const;
   /// What changes in the picture between two meshes: displacement or, on a mesh, parallax.
   [[nodiscard]] oracle::PixelFigure jump(const Camera& camera, const oracle::RaySurface& now,
-                                         const oracle::PixelHits& hits, const oracle::RaySurface& before) const;
+                                         const oracle::PixelHits& hits,
+                                         const oracle::RaySurface& before) const;
   verdict::StabilityFigures judge_stability(const FrameScene& scene, const verdict::FrameVerdict& frame,
                                             const oracle::PixelHits& hits);
 

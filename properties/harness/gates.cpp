@@ -135,7 +135,8 @@ std::vector<std::string> find_vacuous(const std::vector<verdict::RunVerdict>& ru
     const bool mesh = run.subject == Subject::mesh;
     if ((mesh ? summary.image.depth_rel : summary.image.displacement_px).count == 0)
       out.push_back(fmt::format("{}: no pixel to measure", run.id));
-    if (!mesh && !(summary.vertical_m.area_m2 > 0)) out.push_back(fmt::format("{}: no area to measure", run.id));
+    if (!mesh && !(summary.vertical_m.area_m2 > 0))
+      out.push_back(fmt::format("{}: no area to measure", run.id));
     families[run.method][run.terrain].push_back(&run);
   }
   for (const auto& [method, grounds] : families) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The main job: methods × subjects (terrains, then meshes) × trajectories × thresholds, as far as a trajectory
-// flies around that kind of subject and a method takes it. One task is a flight's camera path around one
-// subject; all methods and thresholds fly it side by side, so that the reference is looked at once a frame
-// for all of them.
+// The main job: methods × subjects (terrains, then meshes) × trajectories × thresholds, as far as a
+// trajectory flies around that kind of subject and a method takes it. One task is a flight's camera path
+// around one subject; all methods and thresholds fly it side by side, so that the reference is looked at once
+// a frame for all of them.
 #include "properties/harness/run_suite.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ struct Stage {
   std::vector<Entry> entries;                                     ///< spec × threshold
   std::vector<std::vector<std::unique_ptr<LodMethod>>> prepared;  ///< [subject][spec]; null: takes no mesh
   std::vector<std::vector<double>> prepare_s;                     ///< [subject][spec]
-  std::vector<std::vector<std::vector<Camera>>> cameras;          ///< [subject][trajectory][frame]; empty: not flown
+  std::vector<std::vector<std::vector<Camera>>> cameras;  ///< [subject][trajectory][frame]; empty: not flown
 
   [[nodiscard]] const Terrain& terrain(std::size_t t) const { return grounds[t].front()->terrain; }
   [[nodiscard]] const TerrainStage& ground(std::size_t t, std::size_t spec) const {
@@ -127,14 +127,14 @@ void refuse_idle(const Suite& suite, const std::vector<MethodSpec>& kept) {
   if (suite.terrains.empty()) {
     for (const MethodSpec& spec : kept) {
       if (takes(spec, Subject::mesh)) continue;
-      throw InputError(fmt::format("method {} takes terrains only, and suite {} has none; leave it out", spec.id,
-                                   suite.name));
+      throw InputError(fmt::format("method {} takes terrains only, and suite {} has none; leave it out",
+                                   spec.id, suite.name));
     }
   }
   if (std::none_of(suite.methods.begin(), suite.methods.end(),
                    [](const MethodSpec& spec) { return takes(spec, Subject::mesh); })) {
-    throw InputError(fmt::format("no method of suite {} takes meshes; add a [[method]] that does, as vertex_tree",
-                                 suite.name));
+    throw InputError(fmt::format(
+        "no method of suite {} takes meshes; add a [[method]] that does, as vertex_tree", suite.name));
   }
 }
 
@@ -168,7 +168,8 @@ void add_objects(Stage& stage, ObjectScene loaded, const std::vector<std::unique
     try {
       prepared[s]->prepare_objects(scene.objects);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("mesh '{}': {} cannot take it: {}", scene.id, stage.specs[s].id, error.what()));
+      throw InputError(
+          fmt::format("mesh '{}': {} cannot take it: {}", scene.id, stage.specs[s].id, error.what()));
     }
     seconds[s] = seconds_since(start);
   }
@@ -372,8 +373,8 @@ double error_px(const verdict::RunVerdict& run) {
 }
 
 /// What to show of a method over a terrain: the frame with the widest visible crack or, where there is none,
-/// the frame with the largest p99 displacement (mesh: silhouette distance) at the method's middle threshold; the
-/// first among equals.
+/// the frame with the largest p99 displacement (mesh: silhouette distance) at the method's middle threshold;
+/// the first among equals.
 Scene worst_scene(const Stage& stage, const std::vector<Task>& tasks, const verdict::SuiteVerdict& verdict,
                   std::size_t subject, std::size_t spec) {
   std::vector<std::size_t> mine;

@@ -102,7 +102,8 @@ void summarize_image(const std::vector<FrameVerdict>& frames, RunSummary& all) {
     all.image.silhouette_pixels += image.silhouette_pixels;
     raise(all.image.silhouette_max_px, image.silhouette_max_px);
     const bool mesh = frame.subject == Subject::mesh;
-    const bool any = mesh ? image.depth_rel.count + image.silhouette_pixels > 0 : image.displacement_px.count > 0;
+    const bool any =
+        mesh ? image.depth_rel.count + image.silhouette_pixels > 0 : image.displacement_px.count > 0;
     const double error_px = mesh ? image.silhouette_max_px : image.displacement_px.p99;
     if (any && worse(error_px, worst_p99)) {
       worst_p99 = error_px;
@@ -297,9 +298,9 @@ std::span<const Figure> figures() { return kFigures; }
 
 bool was_asked(Subject subject, std::string_view path) {
   if (subject == Subject::terrain) return true;
-  constexpr std::array<std::string_view, 9> kInPlan{"crack",   "t_junction", "fold_over",      "hole",
-                                                    "overlap", "outline",    "visible_cracks", "largest_gap_m",
-                                                    "largest_gap_px"};
+  constexpr std::array<std::string_view, 9> kInPlan{"crack",          "t_junction",    "fold_over",
+                                                    "hole",           "overlap",       "outline",
+                                                    "visible_cracks", "largest_gap_m", "largest_gap_px"};
   return std::ranges::find(kInPlan, path) == kInPlan.end() && !path.starts_with("vertical_m.") &&
          !path.starts_with("displacement_px.") && !path.starts_with("shape.");
 }
@@ -307,7 +308,8 @@ bool was_asked(Subject subject, std::string_view path) {
 double figure_value(const RunSummary& summary, std::string_view path) {
   const auto found = std::ranges::find(kFigures, path, &Figure::path);
   if (found != std::end(kFigures)) {
-    return was_asked(summary.subject, path) ? found->value(summary) : std::numeric_limits<double>::quiet_NaN();
+    return was_asked(summary.subject, path) ? found->value(summary)
+                                            : std::numeric_limits<double>::quiet_NaN();
   }
   std::string known;
   for (const Figure& figure : kFigures) known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.path);

@@ -115,7 +115,8 @@ std::span<const Figure> figures();
 /// Whether a figure makes sense for what is flown around. A mesh that is no height field has no plan to cover
 /// and no height over a point: its plan findings, vertical_m, displacement_px and shape are not asked.
 bool was_asked(Subject subject, std::string_view path);
-/// One figure of a run; NaN if it was not asked. Throws InputError naming all figures if there is none of that path.
+/// One figure of a run; NaN if it was not asked. Throws InputError naming all figures if there is none of
+/// that path.
 double figure_value(const RunSummary& summary, std::string_view path);
 
 struct RunVerdict {
@@ -158,7 +159,8 @@ struct SuiteVerdict {
   double fov_y_deg = 0;
   std::vector<TerrainFacts> terrains;
   std::vector<MeshFacts> meshes;
-  std::vector<RunVerdict> runs;    ///< terrain (then mesh), trajectory, method, threshold: the suite file's order
+  std::vector<RunVerdict>
+      runs;  ///< terrain (then mesh), trajectory, method, threshold: the suite file's order
   std::vector<GateVerdict> gates;  ///< run order, then gate order
   std::vector<std::string>
       vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
