@@ -40,10 +40,11 @@ class Survey {
     look_for_duplicates();
     look_at_edges();
     look_at_fans();
-    std::stable_sort(report_.findings.begin(), report_.findings.end(), [](const Finding& a, const Finding& b) {
-      return std::tie(a.code, a.at.x, a.at.y, a.at.z, a.vertices, a.triangles) <
-             std::tie(b.code, b.at.x, b.at.y, b.at.z, b.vertices, b.triangles);
-    });
+    std::stable_sort(report_.findings.begin(), report_.findings.end(),
+                     [](const Finding& a, const Finding& b) {
+                       return std::tie(a.code, a.at.x, a.at.y, a.at.z, a.vertices, a.triangles) <
+                              std::tie(b.code, b.at.x, b.at.y, b.at.z, b.vertices, b.triangles);
+                     });
     return std::move(report_);
   }
 
@@ -131,8 +132,8 @@ class Survey {
     });
     for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
       std::vector<std::uint32_t> triangles;
-      for (end = first; end < sides.size() && sides[end].low == sides[first].low &&
-                        sides[end].high == sides[first].high;
+      for (end = first;
+           end < sides.size() && sides[end].low == sides[first].low && sides[end].high == sides[first].high;
            ++end) {
         triangles.push_back(sides[end].triangle);
       }
@@ -188,8 +189,8 @@ class Survey {
       }
       if (fans < 2) continue;
       ++report_.counts.non_manifold;
-      add(FindingCode::non_manifold, "vertex", mesh_.positions[corners[first].vertex], {corners[first].vertex},
-          star);
+      add(FindingCode::non_manifold, "vertex", mesh_.positions[corners[first].vertex],
+          {corners[first].vertex}, star);
     }
   }
 

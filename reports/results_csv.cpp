@@ -37,7 +37,8 @@ bool was_judged(std::string_view figure, const verdict::FrameVerdict& frame) {
   if (figure == "economy.excess") return frame.economy.needed > 0;
   if (figure.starts_with("economy.")) return frame.economy.slack_judged;
   if (figure == "projected_area") return frame.space.area_judged;
-  if (figure == "self_intersection" || figure.starts_with("hausdorff_m.") || figure.starts_with("normal_deg."))
+  if (figure == "self_intersection" || figure.starts_with("hausdorff_m.") ||
+      figure.starts_with("normal_deg."))
     return frame.space.judged;
   return true;
 }

@@ -32,8 +32,8 @@ std::string matrix(const verdict::SuiteVerdict& verdict) {
     const bool occurs =
         std::ranges::any_of(methods, [&](const MethodDigest& m) { return m.conformity.*column.count > 0; });
     const bool asked = verdict.runs.empty() || std::ranges::any_of(verdict.runs, [&](const auto& run) {
-      return verdict::was_asked(run.subject, column.name);
-    });
+                         return verdict::was_asked(run.subject, column.name);
+                       });
     if (occurs) {
       shown.push_back(column);
     } else if (asked) {
@@ -177,7 +177,8 @@ std::string objects(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
   for (const verdict::RunVerdict& run : verdict.runs) {
     if (run.subject != Subject::mesh) continue;
     auto row = std::ranges::find_if(rows, [&](const Row& known) {
-      return known.mesh == run.terrain && known.method == run.method && known.threshold_px == run.threshold_px;
+      return known.mesh == run.terrain && known.method == run.method &&
+             known.threshold_px == run.threshold_px;
     });
     if (row == rows.end()) {
       Row fresh;

@@ -80,7 +80,8 @@ ObjectScene load_objects(const MeshSource& source) {
       Vec3& p = object.positions[v];
       p = p * source.scale + place;
       if (!in_reach(p)) {
-        refuse(fmt::format("vertex {} would stand at ({}, {}, {}) m; keep to {} m", v, p.x, p.y, p.z, kFarthestM));
+        refuse(fmt::format("vertex {} would stand at ({}, {}, {}) m; keep to {} m", v, p.x, p.y, p.z,
+                           kFarthestM));
       }
     }
     const auto base = static_cast<std::uint32_t>(scene.whole.positions.size());

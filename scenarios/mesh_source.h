@@ -30,10 +30,10 @@ struct MeshSource {
 /// Objects that stand together in one scene.
 struct ObjectScene {
   std::string id;
-  std::vector<Mesh> objects;  ///< one a copy, metres
-  Mesh whole;                 ///< all of them as one mesh, in their order
-  Vec3 center;                ///< of the scene's box
-  double radius_m = 0;        ///< of the ball around `center` that holds the scene
+  std::vector<Mesh> objects;   ///< one a copy, metres
+  Mesh whole;                  ///< all of them as one mesh, in their order
+  Vec3 center;                 ///< of the scene's box
+  double radius_m = 0;         ///< of the ball around `center` that holds the scene
   double object_radius_m = 0;  ///< of the ball around the middle of one object's box: all copies are alike
 };
 

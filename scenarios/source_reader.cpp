@@ -209,7 +209,8 @@ TrajectorySpec read_trajectory(const TomlTable& table, Subject around) {
   for (const auto& [key, value] : table.entries()) {
     if (key == "id" || key == "kind" || key == "around") continue;
     if (std::find(chosen->keys.begin(), chosen->keys.end(), key) == chosen->keys.end()) {
-      value.fail(fmt::format("does not apply to kind \"{}\"{}; leave it out", spec.kind, mesh ? " around a mesh" : ""));
+      value.fail(fmt::format("does not apply to kind \"{}\"{}; leave it out", spec.kind,
+                             mesh ? " around a mesh" : ""));
     }
   }
   if (spec.kind == "poses") {

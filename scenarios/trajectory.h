@@ -33,8 +33,8 @@ struct TrajectorySpec {
   /// (0.005 L), spin (0.06 L), hover (0.08 L): above the ground below; orbit: above the highest ground on the
   /// way (0.2 L); nadir: above the highest sample (0.4 L). Defaults are never below four sample spacings.
   double height_m = 0;
-  double distance_m = 0;   ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L); two_ways:
-                           ///< length of each way (0.5 L)
+  double distance_m = 0;  ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L); two_ways:
+                          ///< length of each way (0.5 L)
   /// Around a mesh: from the scene's centre, in radii of the ball around it; approach, retreat, two_ways: of
   /// the far end; orbit, spin, hover: of the camera. 0: as the kind tells (trajectory_kinds_around_mesh()).
   double distance_radii = 0;

@@ -95,7 +95,8 @@ Poses fly_spin(const Scene& scene) {
   const Vec3 ahead = stand.look_at - stand.position;
   Poses poses;
   for (int f = 0; f < scene.spec.frames; ++f) {
-    const double c = exact_cos(2 * kPi * f / scene.spec.frames), s = exact_sin(2 * kPi * f / scene.spec.frames);
+    const double c = exact_cos(2 * kPi * f / scene.spec.frames),
+                 s = exact_sin(2 * kPi * f / scene.spec.frames);
     const Vec3 turned{c * ahead.x - s * ahead.y, s * ahead.x + c * ahead.y, ahead.z};
     poses.push_back({stand.position, stand.position + turned});
   }
@@ -135,11 +136,14 @@ Poses fly_two_ways(const Scene& scene) {
   const double far_m = scene.distance_or(kFarPx), near_m = scene.distance_m(kNearPx);
   const double pose_m = scene.distance_m(kRoundPx);
   if (!(far_m > pose_m)) {
-    throw InputError(fmt::format("trajectory '{}': distance_radii is {}, nearer than the pose held at {}; give more",
-                                 scene.spec.id, scene.spec.distance_radii, pose_m / scene.objects.radius_m));
+    throw InputError(
+        fmt::format("trajectory '{}': distance_radii is {}, nearer than the pose held at {}; give more",
+                    scene.spec.id, scene.spec.distance_radii, pose_m / scene.objects.radius_m));
   }
   const CameraPose pose = scene.from(front(), pose_m);
-  const auto on_way = [&](double end_m, double t) { return scene.from(front(), end_m + (pose_m - end_m) * t); };
+  const auto on_way = [&](double end_m, double t) {
+    return scene.from(front(), end_m + (pose_m - end_m) * t);
+  };
   const int steps = std::max(1, (scene.spec.frames - 2 * held) / 3);
   Poses poses;
   for (int k = 0; k < steps; ++k) poses.push_back(on_way(far_m, static_cast<double>(k) / steps));
@@ -184,7 +188,9 @@ const std::vector<Flight>& flights() {
        fly_approach},
       {{"retreat", "approach backwards", {"frames", "distance_radii"}}, fly_retreat},
       {{"orbit", "one round, where an object shows as 180 px", {"frames", "distance_radii"}}, fly_orbit},
-      {{"spin", "a full turn on the spot: the objects leave the picture and come back", {"frames", "distance_radii"}},
+      {{"spin",
+        "a full turn on the spot: the objects leave the picture and come back",
+        {"frames", "distance_radii"}},
        fly_spin},
       {{"teleport",
         "cuts to seeded poses all around, by turns far and near, each held for some frames",
@@ -194,7 +200,8 @@ const std::vector<Flight>& flights() {
         "one pose reached from afar, held, and reached again from near",
         {"frames", "hold_frames", "distance_radii"}},
        fly_two_ways},
-      {{"hover", "trembles by less than a pixel where an object shows as 200 px",
+      {{"hover",
+        "trembles by less than a pixel where an object shows as 200 px",
         {"frames", "distance_radii", "jitter_px", "seed"}},
        fly_hover},
       {{"poses", "the poses given, one a frame", {"poses"}}, given_poses},

@@ -79,6 +79,7 @@ struct Flight::Judged {
   oracle::VerticalError vertical_m;
   oracle::ShapeReport shape;
   std::unique_ptr<oracle::RaySurface> surface;
+  verdict::SpaceFigures space;
 };
 
 Flight::Flight(std::unique_ptr<LodMethod> method, const TerrainStage& stage, const oracle::RayDevice& device)
@@ -105,6 +106,24 @@ void Flight::judge_mesh(Judged& judged) const {
     judged.shape = oracle::shape(now_->mesh);
   }
   judged.surface = std::make_unique<oracle::RaySurface>(device_, now_->mesh);
+}
+
+void Flight::judge_space(Judged& judged) const {
+  if (judged.space.judged) return;
+  // Far below what a picture of some hundred pixels shows of the object.
+  constexpr double kWithinShare = 0x1p-10;  // of the reference's half diagonal
+  Vec3 low = stage_.reference.positions.front(), high = low;
+  for (const Vec3 p : stage_.reference.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const auto likeness =
+      oracle::compare_in_space(now_->mesh, stage_.reference, kWithinShare * length(high - low) / 2);
+  const auto pairs = oracle::self_intersections(now_->mesh);
+  if (!likeness || !pairs) return;  // no manifold: reported by soundness, and these figures stay unjudged
+  judged.space.judged = true;
+  judged.space.likeness = *likeness;
+  judged.space.self_intersections = pairs->size();
 }
 
 oracle::ImageError Flight::judge_image(const FrameScene& scene, const oracle::RaySurface& surface,
@@ -186,7 +205,14 @@ verdict::FrameVerdict Flight::next(const FrameScene& scene) {
     out.counters.entered = entered.size();
     out.counters.left = left.size();
   }
-  if (scene.asks_slack && stage_.subject == Subject::terrain) {
+  if (stage_.subject == Subject::mesh) {
+    if (scene.asks_all) judge_space(*judged_now_);
+    // A mesh that stays keeps what was measured when it was asked for.
+    out.space = judged.space;
+    out.space.area_judged = true;
+    out.space.projected_area = oracle::projected_area_error(*scene.reference_hits, hits);
+  }
+  if (scene.asks_all && stage_.subject == Subject::terrain) {
     out.economy.slack_judged = true;
     out.economy.slack = oracle::measure_slack(camera, *stage_.surface, *scene.reference_hits, *judged.surface,
                                               method_->threshold_px());

@@ -34,7 +34,7 @@ struct FrameScene {
   double mean_depth_m = std::numeric_limits<double>::infinity();
   bool cut = false;          ///< the camera was cut to this frame (oracle::is_cut)
   int first_visit = -1;      ///< the first frame of the flight with this camera, if that is an earlier one
-  bool asks_slack = false;   ///< O4's slack is to be measured
+  bool asks_all = false;     ///< the costly figures too: slack (O4), distances in space (O7)
   bool comes_again = false;  ///< the first of several frames with this camera
 };
 
@@ -55,6 +55,7 @@ class Flight {
  private:
   struct Judged;
   void judge_mesh(Judged& judged) const;
+  void judge_space(Judged& judged) const;
   [[nodiscard]] oracle::ImageError judge_image(const FrameScene& scene, const oracle::RaySurface& surface,
                                                const oracle::PixelHits& hits) const;
   /// What changes in the picture between two meshes: displacement or, on a mesh, parallax.

@@ -346,7 +346,7 @@ void fly(const Stage& stage, const Task& task, const oracle::RayDevice& device, 
                                                stage.ground(subject, stage.entries[e].spec_index), device));
   }
   std::vector<FrameScene> scenes = scenes_of(cameras);
-  for (FrameScene& scene : scenes) scene.asks_slack = scene.index % stage.suite->slack_every == 0;
+  for (FrameScene& scene : scenes) scene.asks_all = scene.index % stage.suite->slack_every == 0;
   double mean_depth_m = std::numeric_limits<double>::infinity();  // of what the frame before saw
   const double step_m = oracle::median_step_m(cameras);
   for (std::size_t f = 0; f < cameras.size() && !progress.cancelled(); ++f) {

@@ -37,7 +37,8 @@ function scatter(runs: Run[], measure: Measure, width: number): Option {
     series: shown.map((method) => {
       const { colour, symbol } = look(method);
       return {
-        name: method, type: 'scatter', symbol, symbolSize: 9, itemStyle: { color: colour, opacity: 0.75 },
+        name: method, type: 'line', lineStyle: { width: 0 }, symbol, symbolSize: 9, showAllSymbol: true,
+        itemStyle: { color: colour, opacity: 0.75 },
         data: runs.filter((run) => run.method === method).flatMap((run) => run.frames
           .filter((frame) => measure.of(frame) !== null)
           .map((frame) => ({ value: [frame.triangles, measure.of(frame)], run, frame }))),
@@ -85,5 +86,5 @@ export function objectsSection(): HTMLElement {
       ...MEASURES.map(({ label, unit }) => ({ head: `${label} (${unit})`, number: true })),
       { head: 'update, median (ms)', number: true },
     ], rows, 'Objects'),
-    controls(mesh, flight, which), plot.element);
+    controls(mesh, flight, which), el('figure', {}, plot.element));
 }

@@ -57,13 +57,14 @@ export function matrixSection(): HTMLElement {
       : runs.reduce((sum, run) => sum + (run.summary.conformity[name] ?? 0), 0));
     const frames = runs.reduce((sum, run) => sum + run.summary.frames, 0);
     const sound = frames > 0 && counts.every((count) => !count);
+    const plan = runs.some((run) => run.subject !== 'mesh');
     const visible = runs.reduce((sum, run) => sum + (run.summary.visible_cracks ?? 0), 0);
     return [
       method,
       el('span', { class: sound ? 'tag good' : 'tag bad' }, sound ? '✓ sound' : '✕ not sound'),
       short(frames),
       ...FINDINGS.map((name, place) => countCell(name, counts[place] ?? null)),
-      short(visible),
+      plan ? short(visible) : '–',
       visible === 0 ? '–' : short(worst(runs.map((run) => run.summary.largest_gap_px))),
       gates.length === 0 ? '–' : el('span', { class: failed ? 'bad' : 'good' },
         failed ? `✕ ${failed} of ${gates.length} fail` : `✓ ${gates.length} hold`),
