@@ -363,13 +363,9 @@ RunSummary summarize(const std::vector<FrameVerdict>& frames) {
 std::span<const Figure> figures() { return kFigures; }
 
 bool was_asked(Subject subject, std::string_view path) {
-<<<<<<< HEAD
   const bool in_space = path == "self_intersection" || path == "projected_area" ||
                         path.starts_with("hausdorff_m.") || path.starts_with("normal_deg.");
   if (subject == Subject::terrain) return !in_space;
-=======
-  if (subject == Subject::terrain) return true;
->>>>>>> next/objects
   constexpr std::array<std::string_view, 9> kInPlan{"crack",          "t_junction",    "fold_over",
                                                     "hole",           "overlap",       "outline",
                                                     "visible_cracks", "largest_gap_m", "largest_gap_px"};
