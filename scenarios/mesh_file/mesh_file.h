@@ -46,9 +46,10 @@ std::vector<Mesh> triangulate_parts(const MeshFile& file);
 Mesh welded(const Mesh& mesh);
 
 /// The same triangles on an oriented manifold: edges of other than two triangles, or of two that run the same
-/// way, become borders, and each fan of triangles gets a vertex of its own. CAD models touch themselves at such
-/// places. No triangle moves; a sound mesh is returned with its vertices in order of use. Requires: no triangle
-/// names a vertex twice. Source: Guéziec, Taubin, Lazarus, Horn, "Cutting and stitching" (2001), cutting.
+/// way, become borders, and each fan of triangles gets a vertex of its own. CAD models touch themselves at
+/// such places. No triangle moves; a sound mesh is returned with its vertices in order of use. Requires: no
+/// triangle names a vertex twice. Source: Guéziec, Taubin, Lazarus, Horn, "Cutting and stitching" (2001),
+/// cutting.
 Mesh cut_to_manifold(const Mesh& mesh);
 
 }  // namespace plumbline
