@@ -23,6 +23,7 @@ struct TablesArguments {
   std::vector<std::string> names;
   std::string out;
   std::string terrain;
+  std::vector<std::string> meshes;
   int jobs = 0;
   bool quiet = false;
 };
@@ -40,8 +41,11 @@ int tables(const TablesArguments& arguments) {
   const std::vector<std::string> papers = tables::choose_tables(arguments.names);
   const std::filesystem::path out = arguments.out;
   if (!out.empty()) require_writable(out);  // known before the work, not after
-  const tables::TableSettings settings = tables::published_settings(
+  tables::TableSettings settings = tables::published_settings(
       arguments.terrain.empty() ? shipped_terrain() : std::filesystem::path(arguments.terrain));
+
+  for (const std::string& mesh : arguments.meshes)
+    settings.p4.meshes.push_back(tables::load_mesh_stand_in(mesh));
 
   tables::MakeOptions options;
   options.jobs = arguments.jobs;
@@ -75,6 +79,8 @@ void add_tables(CLI::App& program, int& status) {
                       "folder for tables.md, .json, .csv and the timings; default: none are written");
   command->add_option("--terrain", arguments->terrain,
                       "the real stand-in terrain, anything that GDAL opens; default: Jacksboro fault");
+  command->add_option("--mesh", arguments->meshes,
+                      "P4: a mesh besides the instrument (PLY, OBJ, OFF, STL, GLB); may be given again");
   command->add_option("--jobs", arguments->jobs, "threads; 0: one a core")->check(CLI::Range(0, 1024));
   command->add_flag("--quiet", arguments->quiet, "print nothing but errors");
   command->callback([arguments, &status] { status = tables(*arguments); });

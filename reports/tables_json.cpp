@@ -48,6 +48,10 @@ Json trial_json(const tables::Table& table, const tables::Trial& trial) {
 Json table_json(const tables::Table& table) {
   Json stand_ins = Json::array(), figures = Json::array(), trials = Json::array();
   for (const tables::StandIn& s : table.stand_ins) {
+    if (s.triangles > 0) {
+      stand_ins.push_back({{"id", s.id}, {"origin", s.origin}, {"triangles", s.triangles}});
+      continue;
+    }
     stand_ins.push_back({{"id", s.id},
                          {"origin", s.origin},
                          {"columns", s.columns},

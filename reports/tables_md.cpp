@@ -105,6 +105,12 @@ std::string section(const Table& table) {
   std::string out = fmt::format("## {}: {}\n\n{}.\n\n", table.id, table.title, table.source);
   for (const std::string& line : table.protocol) out += fmt::format("- {}\n", line);
   for (const StandIn& stand_in : table.stand_ins) {
+    if (stand_in.triangles > 0) {
+      out +=
+          fmt::format("\n### {}: {} triangles\n\n({})\n\n", stand_in.id, stand_in.triangles, stand_in.origin);
+      out += side_by_side(table, stand_in);
+      continue;
+    }
     out += fmt::format("\n### {}: {} × {} samples, {:.6g} m apart, {:.0f} to {:.0f} m\n\n({})\n\n",
                        stand_in.id, stand_in.columns, stand_in.rows, stand_in.spacing_m, stand_in.lowest_m,
                        stand_in.highest_m, stand_in.origin);

@@ -18,6 +18,7 @@
 
 #include "properties/harness/gauge.h"
 #include "scenarios/error.h"
+#include "scenarios/instrument.h"
 #include "scenarios/nearest.h"
 
 namespace plumbline::tables {
@@ -74,6 +75,24 @@ class Maker {
           Sheet& sheet = *small->sheet;
           if (v == 0) sheet.table.stand_ins[s] = describe_stand_in(terrain, stand_in.origin);
           sheet.trials[s * sheet.views + v] = small->run(sheet.table, terrain, v);
+        },
+        tbb::simple_partitioner{});
+  }
+
+  /// P4: a task a mesh and contour rule.
+  void run_meshes(Sheet& sheet) {
+    const std::vector<MeshStandIn>& meshes = settings_.p4.meshes;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      StandIn& stand_in = sheet.table.stand_ins[m];
+      stand_in.id = meshes[m].id;
+      stand_in.origin = meshes[m].origin;
+      stand_in.triangles = meshes[m].mesh.triangles.size();
+    }
+    tbb::parallel_for(
+        std::size_t{0}, sheet.trials.size(),
+        [&](std::size_t k) {
+          sheet.trials[k] = p4_trial(sheet.table, settings_.p4, meshes[k / sheet.views],
+                                     p4_views()[k % sheet.views], workshop_);
         },
         tbb::simple_partitioner{});
   }
@@ -140,8 +159,11 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
   const auto asked = [&](const char* paper) {
     return std::find(papers.begin(), papers.end(), paper) != papers.end();
   };
-  // Cheap refusals first: a file that cannot be read should not wait for other terrains' trials.
-  for (const StandInSource& stand_in : settings.stand_ins) load_stand_in(stand_in, 2);
+  // Cheap refusals first: a file that cannot be read should not wait for other terrains' trials. P4 needs
+  // none.
+  const bool terrains = papers != std::vector<std::string>{"P4"};
+  if (terrains)
+    for (const StandInSource& stand_in : settings.stand_ins) load_stand_in(stand_in, 2);
   const std::size_t stand_ins = settings.stand_ins.size();
   std::vector<StandInSource> p0_stand_ins = settings.stand_ins;
   p0_stand_ins.insert(p0_stand_ins.end(), settings.p0.more_stand_ins.begin(),
@@ -157,6 +179,8 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
       sheets.emplace_back(p2_table2(settings.p2, settings.picture, relief), stand_ins, p2_retreats().size());
     }
   }
+  const std::size_t p4 = sheets.size();
+  if (asked("P4")) sheets.emplace_back(p4_table(), settings.p4.meshes.size(), p4_views().size());
   std::vector<Small> small;
   if (asked("P0")) {
     small.push_back({sheets.data(), &p0_stand_ins, settings.p0.size,
@@ -181,6 +205,7 @@ TablesOutcome make(const std::vector<std::string>& papers, const TableSettings& 
   Maker maker(settings, workshop);
   try {
     maker.run_side_by_side(small);
+    if (asked("P4")) maker.run_meshes(sheets[p4]);
     if (asked("P2")) maker.run_alone(sheets[p2 + 1], sheets[p2 + 2], outcome.timings.entries);
   } catch (const Interrupted&) {
     outcome.interrupted = true;
@@ -200,6 +225,7 @@ std::size_t steps_of(const std::vector<std::string>& papers, const TableSettings
     if (paper == "P0")
       steps += (stand_ins + settings.p0.more_stand_ins.size()) * p0_views().size() * kP0Steps;
     if (paper == "P1") steps += stand_ins * p1_views().size() * p1_steps(settings.p1);
+    if (paper == "P4") steps += settings.p4.meshes.size() * p4_views().size() * p4_steps();
     if (paper == "P2") steps += stand_ins * (p2_views().size() * kP2Table1Steps + kP2Table2Steps);
   }
   return steps;
@@ -226,6 +252,8 @@ TableSettings published_settings(const std::filesystem::path& real_terrain) {
   terraced.height_classes = 12;  // as many as a physical map's legend has, about
   terraced.origin = "the same fractal in 12 height classes: the paper's Africa was restored from a map";
   settings.p0.more_stand_ins = {terraced};
+  settings.p4.meshes = {
+      {"instrument", "made for this table: casing, dials, knobs, screws, grille", instrument_mesh()}};
   return settings;
 }
 
@@ -235,6 +263,7 @@ const std::vector<ReproducedPaper>& reproduced_papers() {
       {"P1", "triangles that ring_tin leaves of four point sets, and its tolerances, tables 1 and 2",
        "TABLES P1, M2"},
       {"P2", "isolated division at three thresholds, and along a retreat, tables 1 and 2", "TABLES P2, M3"},
+      {"P4", "an instrument's vertex tree brought to 5 381 triangles and down its ladder", "TABLES P4, M5"},
   };
   return papers;
 }

@@ -11,6 +11,7 @@
 #include "properties/tables/p0.h"
 #include "properties/tables/p1.h"
 #include "properties/tables/p2.h"
+#include "properties/tables/p4.h"
 #include "properties/tables/stage.h"
 #include "properties/verdict/paper_table.h"
 
@@ -23,6 +24,7 @@ struct TableSettings {
   P0Settings p0;
   P1Settings p1;
   P2Settings p2;
+  P4Settings p4;
 };
 
 /// One real terrain, read from `real_terrain` (anything that GDAL opens), and one fractal.

@@ -77,10 +77,11 @@ struct Trial {
   std::vector<std::optional<double>> ours;  ///< one a figure, in the table's order; nothing: could not be had
 };
 
-/// A terrain that stands for the paper's.
+/// A terrain, or a mesh, that stands for the paper's.
 struct StandIn {
   std::string id;
-  std::string origin;  ///< what it is, for people
+  std::string origin;         ///< what it is, for people
+  std::size_t triangles = 0;  ///< of a mesh; 0: a terrain, and what follows is set
   int columns = 0, rows = 0;
   double spacing_m = 0, lowest_m = 0, highest_m = 0;
 };
