@@ -37,11 +37,15 @@ void list_methods() {
 void list_terrains() {
   fmt::print("terrains (generators; `file` takes anything that GDAL opens)\n");
   for (const GeneratorDescription& generator : terrain_generators()) line(generator.name, generator.summary);
+  fmt::print("meshes (generators; `file` takes PLY, OBJ, OFF and STL)\n");
+  for (const MeshGenerator& generator : mesh_generators()) line(generator.name, generator.summary);
 }
 
 void list_trajectories() {
   fmt::print("trajectories\n");
   for (const TrajectoryKind& kind : trajectory_kinds()) line(kind.name, kind.summary);
+  fmt::print("trajectories around a mesh (around = \"mesh\")\n");
+  for (const TrajectoryKind& kind : trajectory_kinds_around_mesh()) line(kind.name, kind.summary);
 }
 
 void list_laws() {

@@ -93,6 +93,7 @@ ObjectScene load_objects(const MeshSource& source) {
       scene.whole.triangles.push_back({base + a, base + b, base + c});
     }
   }
+  for (const Mesh& object : scene.objects) scene.centers.push_back(ball_around(object).center);
   scene.object_radius_m = ball_around(scene.objects.front()).radius_m;
   if (!(scene.object_radius_m > 0)) refuse("all its vertices are one point; give a mesh with an extent");
   const Ball ball = ball_around(scene.whole);

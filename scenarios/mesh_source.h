@@ -32,6 +32,7 @@ struct ObjectScene {
   std::string id;
   std::vector<Mesh> objects;   ///< one a copy, metres
   Mesh whole;                  ///< all of them as one mesh, in their order
+  std::vector<Vec3> centers;   ///< of each object's box
   Vec3 center;                 ///< of the scene's box
   double radius_m = 0;         ///< of the ball around `center` that holds the scene
   double object_radius_m = 0;  ///< of the ball around the middle of one object's box: all copies are alike

@@ -222,7 +222,7 @@ TrajectorySpec read_trajectory(const TomlTable& table, Subject around) {
   if (const TomlValue* distance = table.find("distance_m")) spec.distance_m = distance->positive();
   if (const TomlValue* distance = table.find("distance_radii")) {
     spec.distance_radii = distance->positive();
-    if (!(spec.distance_radii > 1)) distance->fail("is within the scene's ball; give more than 1");
+    if (!(spec.distance_radii > 1)) distance->fail("is within the object's ball; give more than 1");
   }
   if (const TomlValue* jitter = table.find("jitter_px")) spec.jitter_px = jitter->positive();
   if (const TomlValue* hold = table.find("hold_frames")) {

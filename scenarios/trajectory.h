@@ -35,8 +35,9 @@ struct TrajectorySpec {
   double height_m = 0;
   double distance_m = 0;  ///< approach, retreat: length of the way (1.5 L); orbit: radius (0.6 L); two_ways:
                           ///< length of each way (0.5 L)
-  /// Around a mesh: from the scene's centre, in radii of the ball around it; approach, retreat, two_ways: of
-  /// the far end; orbit, spin, hover: of the camera. 0: as the kind tells (trajectory_kinds_around_mesh()).
+  /// Around a mesh: in radii of the ball around one object; approach, retreat, two_ways: of the far end, and
+  /// spin, hover: of the camera, from the foremost copy's middle; orbit: the same beyond the scene's edge. 0:
+  /// as the kind tells (trajectory_kinds_around_mesh()).
   double distance_radii = 0;
   double jitter_px = 0;    ///< hover: amplitude of the motion, as it shows in the picture's middle (0.5 px)
   int hold_frames = 0;     ///< teleport, two_ways: frames that a pose is held (4; 3)
@@ -51,7 +52,7 @@ std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const Terrain& t
                                     int width_px, int height_px);
 
 /// The same around a scene of objects. Distances follow from the size on the screen of the ball around one
-/// object at the scene's near side. Throws InputError as above, and for a distance within the scene's ball.
+/// object. Throws InputError as above, and for a distance within that ball.
 std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const ObjectScene& objects, double fov_y_deg,
                                     int width_px, int height_px);
 

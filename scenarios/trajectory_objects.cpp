@@ -26,49 +26,55 @@ constexpr double kNearPx = 640;
 constexpr double kRoundPx = 180;  // between two rungs: what changes on the round is the contour
 constexpr double kRungPx = 200;   // on a rung: the least motion crosses it
 
+/// To the camera: before the front, from the right and above; askew, so that no ray runs along an axis.
+Vec3 front() { return normalized({0.2, -1, 0.35}); }
+
 struct Scene {
   const TrajectorySpec& spec;
   const ObjectScene& objects;
   double kappa_px;
 
-  /// From the scene's centre, so that an object at its near side shows as `size_px`; further than the
-  /// scene's ball reaches.
+  /// The foremost copy: from before it, no other copy stands in the camera's way.
+  Vec3 target;
+
+  /// From the middle of an object, so that it shows as `size_px`; beyond its ball.
   [[nodiscard]] double distance_m(double size_px) const {
-    const double r = objects.object_radius_m, tangent = 2 * kappa_px / size_px;
-    return (objects.radius_m - r) + r * std::sqrt(1 + tangent * tangent);
+    const double tangent = 2 * kappa_px / size_px;
+    return objects.object_radius_m * std::sqrt(1 + tangent * tangent);
   }
-  /// The inverse. Requires: distance_m > the scene's radius.
+  /// The inverse. Requires: distance_m > the object's radius.
   [[nodiscard]] double size_px(double distance_m) const {
-    const double r = objects.object_radius_m, d = distance_m - (objects.radius_m - r);
-    return 2 * kappa_px * r / std::sqrt(d * d - r * r);
+    const double r = objects.object_radius_m;
+    return 2 * kappa_px * r / std::sqrt(distance_m * distance_m - r * r);
   }
   /// The distance that the suite gives or, without one, where an object shows as `size_px`.
   [[nodiscard]] double distance_or(double size_px) const {
-    return spec.distance_radii > 0 ? spec.distance_radii * objects.radius_m : distance_m(size_px);
+    return spec.distance_radii > 0 ? spec.distance_radii * objects.object_radius_m : distance_m(size_px);
   }
-  [[nodiscard]] CameraPose from(Vec3 direction, double distance) const {
-    return {objects.center + direction * distance, objects.center};
+  /// Before the foremost copy.
+  [[nodiscard]] CameraPose before(double distance) const { return {target + front() * distance, target}; }
+  /// Around the scene: so far from its edge as if an object stood there.
+  [[nodiscard]] CameraPose around(Vec3 direction, double distance) const {
+    const double beyond_m = objects.radius_m - objects.object_radius_m;
+    return {objects.center + direction * (beyond_m + distance), objects.center};
   }
   [[nodiscard]] double progress(int frame) const {
     return spec.frames > 1 ? static_cast<double>(frame) / (spec.frames - 1) : 0.0;
   }
 };
 
-/// Before the front, from the right and above; askew, so that no ray runs along an axis.
-Vec3 front() { return normalized({0.2, -1, 0.35}); }
-
 Poses fly_approach(const Scene& scene) {
   const double near_m = scene.distance_m(kNearPx), far_m = scene.distance_or(kFarPx);
   if (!(far_m > near_m)) {
     throw InputError(fmt::format(
         "trajectory '{}': distance_radii is {}, nearer than the flight's near end at {}; give more",
-        scene.spec.id, scene.spec.distance_radii, near_m / scene.objects.radius_m));
+        scene.spec.id, scene.spec.distance_radii, near_m / scene.objects.object_radius_m));
   }
   const double far_px = scene.size_px(far_m);
   Poses poses;
   for (int f = 0; f < scene.spec.frames; ++f) {
     const double size_px = far_px + (kNearPx - far_px) * scene.progress(f);
-    poses.push_back(scene.from(front(), scene.distance_m(size_px)));
+    poses.push_back(scene.before(scene.distance_m(size_px)));
   }
   return poses;
 }
@@ -84,14 +90,14 @@ Poses fly_orbit(const Scene& scene) {
   for (int f = 0; f < scene.spec.frames; ++f) {
     const double angle = 2 * kPi * f / scene.spec.frames;
     const Vec3 direction = normalized({exact_cos(angle), exact_sin(angle), 0.35});
-    poses.push_back(scene.from(direction, scene.distance_or(kRoundPx)));
+    poses.push_back(scene.around(direction, scene.distance_or(kRoundPx)));
   }
   return poses;
 }
 
 /// On the spot; the scene leaves the picture and comes back.
 Poses fly_spin(const Scene& scene) {
-  const CameraPose stand = scene.from(front(), scene.distance_or(kRoundPx));
+  const CameraPose stand = scene.before(scene.distance_or(kRoundPx));
   const Vec3 ahead = stand.look_at - stand.position;
   Poses poses;
   for (int f = 0; f < scene.spec.frames; ++f) {
@@ -125,7 +131,7 @@ Poses fly_teleport(const Scene& scene) {
     // By turns far and near: a cut that stays on one rung asks nothing.
     const bool far = (f / held) % 2 == 0;
     const double size_px = far ? random.between(kFarPx, 190.0) : random.between(210.0, kNearPx);
-    poses.push_back(scene.from(direction, scene.distance_m(size_px)));
+    poses.push_back(scene.around(direction, scene.distance_m(size_px)));
   }
   return poses;
 }
@@ -138,12 +144,10 @@ Poses fly_two_ways(const Scene& scene) {
   if (!(far_m > pose_m)) {
     throw InputError(
         fmt::format("trajectory '{}': distance_radii is {}, nearer than the pose held at {}; give more",
-                    scene.spec.id, scene.spec.distance_radii, pose_m / scene.objects.radius_m));
+                    scene.spec.id, scene.spec.distance_radii, pose_m / scene.objects.object_radius_m));
   }
-  const CameraPose pose = scene.from(front(), pose_m);
-  const auto on_way = [&](double end_m, double t) {
-    return scene.from(front(), end_m + (pose_m - end_m) * t);
-  };
+  const CameraPose pose = scene.before(pose_m);
+  const auto on_way = [&](double end_m, double t) { return scene.before(end_m + (pose_m - end_m) * t); };
   const int steps = std::max(1, (scene.spec.frames - 2 * held) / 3);
   Poses poses;
   for (int k = 0; k < steps; ++k) poses.push_back(on_way(far_m, static_cast<double>(k) / steps));
@@ -158,7 +162,7 @@ Poses fly_two_ways(const Scene& scene) {
 Poses fly_hover(const Scene& scene) {
   Random random(scene.spec.seed, "hover");
   const double jitter_px = scene.spec.jitter_px > 0 ? scene.spec.jitter_px : 0.5;
-  const CameraPose stand = scene.from(front(), scene.distance_or(kRungPx));
+  const CameraPose stand = scene.before(scene.distance_or(kRungPx));
   const Vec3 ahead = normalized(stand.look_at - stand.position);
   const Vec3 aside = normalized(cross(ahead, {0, 0, 1})), up = cross(aside, ahead);
   const double amplitude_m = jitter_px / scene.kappa_px * length(stand.look_at - stand.position);
@@ -227,7 +231,10 @@ std::vector<Camera> make_trajectory(const TrajectorySpec& spec, const ObjectScen
                                  spec.id, spec.distance_radii));
   }
   const double kappa_px = make_camera({0, 0, 1}, {0, 1, 0}, fov_y_deg, width_px, height_px).kappa_px;
-  const Scene scene{spec, objects, kappa_px};
+  const Vec3 target = *std::max_element(objects.centers.begin(), objects.centers.end(), [](Vec3 a, Vec3 b) {
+    return dot(a, front()) < dot(b, front());
+  });  // the first among equals
+  const Scene scene{spec, objects, kappa_px, target};
   return cameras_at(spec, flight->fly(scene), fov_y_deg, width_px, height_px);
 }
 

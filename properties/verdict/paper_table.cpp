@@ -106,8 +106,8 @@ std::optional<double> Figure::paper() const {
 }
 
 StandIn describe_stand_in(const Terrain& terrain, std::string origin) {
-  return {terrain.id,        std::move(origin),  terrain.columns,    terrain.rows,
-          terrain.spacing_m, terrain.lowest_m(), terrain.highest_m()};
+  return {terrain.id,         std::move(origin),  0, terrain.columns, terrain.rows, terrain.spacing_m,
+          terrain.lowest_m(), terrain.highest_m()};
 }
 
 std::optional<double> ratio(const Figure& figure, const std::optional<double>& ours) {

@@ -156,8 +156,8 @@ TEST_F(SuiteFile, ComplaintsNameLineKeyAndMending) {
     const char *from, *to, *message;
   } cases[] = {
       {"viewport", "viewprot", "s.toml:4: unknown key 'viewprot' in [suite]; did you mean 'viewport'?"},
-      {"[[method]]\nid = \"full\"", "[[mesh]]\nid = \"full\"",
-       "s.toml:40: unknown key 'mesh' in the top level; did you mean 'method'?"},
+      {"[[method]]\nid = \"full\"", "[[metod]]\nid = \"full\"",
+       "s.toml:40: unknown key 'metod' in the top level; did you mean 'method'?"},
       {"relief_m = 300", "constraint = \"roads\"",
        "s.toml:21: unknown key 'constraint' in [[terrain]]; did you mean 'constraints'?"},
       {"seed = 9", "sede = 9", "s.toml:18: unknown key 'sede' in [[terrain]]; did you mean 'seed'?"},
