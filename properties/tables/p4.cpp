@@ -169,7 +169,8 @@ Trial p4_trial(const Table& table, const P4Settings& settings, const MeshStandIn
                            : view.variant == "view_dependent" ? ContourRule::restore
                                                               : ContourRule::hold;
   workshop.check();
-  const auto tree = std::make_shared<const vertex_tree::VertexTree>(build_tree(stand_in.mesh, {}));
+  const auto tree =
+      std::make_shared<const vertex_tree::VertexTree>(vertex_tree::build_tree(stand_in.mesh, {}));
   const auto intersections = oracle::self_intersections(stand_in.mesh);
   const Scene scene{stand_in.mesh, oracle::RaySurface(workshop.device, stand_in.mesh), tree->center,
                     tree->radius_m, intersections ? intersections->size() : 0};
@@ -179,7 +180,8 @@ Trial p4_trial(const Table& table, const P4Settings& settings, const MeshStandIn
     vertex_tree::BuildSettings build;
     build.least_triangles = static_cast<std::size_t>(
         std::floor(settings.least_share * static_cast<double>(stand_in.mesh.triangles.size()) + 0.5));
-    vertex_tree::Cut cut(std::make_shared<const vertex_tree::VertexTree>(build_tree(stand_in.mesh, build)));
+    vertex_tree::Cut cut(
+        std::make_shared<const vertex_tree::VertexTree>(vertex_tree::build_tree(stand_in.mesh, build)));
     cut.coarsen(0);
     cut.extract(mesh, keys);
     trial.fits.push_back({"least count of building", "", static_cast<double>(build.least_triangles), kLeast,

@@ -172,8 +172,12 @@ TEST(Slack, AgreesWithReallyTakingOut) {
         double most_px = 0;
         for (const Mesh& filled : without(mesh, v))
           most_px = std::max(most_px, largest_px(terrain, filled, camera));
-        if (most_px <= threshold_px) EXPECT_EQ(removable[v], 1) << i << ", " << j << ", seed " << seed;
-        if (least_px > 2 * threshold_px) EXPECT_EQ(removable[v], 0) << i << ", " << j << ", seed " << seed;
+        if (most_px <= threshold_px) {
+          EXPECT_EQ(removable[v], 1) << i << ", " << j << ", seed " << seed;
+        }
+        if (least_px > 2 * threshold_px) {
+          EXPECT_EQ(removable[v], 0) << i << ", " << j << ", seed " << seed;
+        }
       }
     }
   }
