@@ -162,12 +162,65 @@ std::string economy(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
   return table.empty() ? std::string() : "\n## Speed and accuracy\n\n" + table.text();
 }
 
+/// O4 over all terrains and flights: what each method draws beside what the yardstick needs at the same
+/// error.
+std::string spending(const verdict::SuiteVerdict& verdict) {
+  struct Row {
+    std::string method;
+    double threshold_px = 0;
+    verdict::EconomySummary all;
+    std::size_t frames = 0;
+  };
+  std::vector<Row> rows;
+  for (const verdict::RunVerdict& run : verdict.runs) {
+    if (run.subject == Subject::mesh) continue;
+    auto row = std::ranges::find_if(rows, [&](const Row& known) {
+      return known.method == run.method && known.threshold_px == run.threshold_px;
+    });
+    if (row == rows.end()) {
+      Row fresh;
+      fresh.method = run.method;
+      fresh.threshold_px = run.threshold_px;
+      row = rows.insert(rows.end(), std::move(fresh));
+    }
+    const verdict::EconomySummary& one = run.summary.economy;
+    row->frames += run.summary.frames;
+    row->all.excess_frames += one.excess_frames;
+    row->all.drawn += one.drawn;
+    row->all.needed += one.needed;
+    row->all.slack_frames += one.slack_frames;
+    row->all.slack.vertices += one.slack.vertices;
+    row->all.slack.removable += one.slack.removable;
+    row->all.slack.in_view += one.slack.in_view;
+    row->all.slack.removable_in_view += one.slack.removable_in_view;
+  }
+  MarkdownTable table(
+      {"method", "τ (px)", "excess", "frames compared", "of", "slack (share)", "in the picture"}, 1);
+  for (const Row& row : rows) {
+    const verdict::EconomySummary& all = row.all;
+    table.row({markdown_cell(row.method), short_number(row.threshold_px),
+               all.excess_frames == 0 ? "—" : short_number(all.drawn / all.needed),
+               std::to_string(all.excess_frames), std::to_string(row.frames),
+               all.slack_frames == 0 ? "—" : short_number(all.slack.share()),
+               all.slack_frames == 0 ? "—" : short_number(all.slack.share_in_view())});
+  }
+  if (table.empty()) return {};
+  const std::string yardstick =
+      verdict.yardstick.empty()
+          ? std::string("No yardstick flew.")
+          : fmt::format("Excess is over {} at the same camera and measured p99 displacement.",
+                        markdown_cell(verdict.yardstick));
+  return "\n## Economy\n\n" + yardstick + "\n\n" + table.text();
+}
+
 /// Mesh × method × threshold over all flights: objects have no plan, so silhouettes and parallax take the
 /// place of displacement.
 std::string objects(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing) {
   struct Row {
     std::string mesh, method;
-    double threshold_px = 0, triangles = 0, silhouette_px = 0, parallax_px = 0, depth_rel = 0;
+    double threshold_px = 0, triangles = 0, silhouette_px = 0, parallax_px = 0, depth_rel = 0,
+           hausdorff_m = 0, normal_deg = 0;
+    std::size_t compared = 0;
     std::size_t frames = 0, judged_px = 0, full = 0;
     std::vector<double> update_ms;
   };
@@ -196,12 +249,16 @@ std::string objects(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
     row->silhouette_px = std::max(row->silhouette_px, summary.image.silhouette_max_px);
     row->parallax_px = std::max(row->parallax_px, summary.image.parallax_px.p99);
     row->depth_rel = std::max(row->depth_rel, summary.image.depth_rel.p99);
+    row->compared += summary.space.frames;
+    row->hausdorff_m = std::max(row->hausdorff_m, summary.space.hausdorff_m.most_m);
+    row->normal_deg = std::max(row->normal_deg, summary.space.normal_mean_deg);
     if (const auto clock = clocks.find(run.id); clock != clocks.end())
       row->update_ms.insert(row->update_ms.end(), clock->second->update_ms.begin(),
                             clock->second->update_ms.end());
   }
   MarkdownTable table({"mesh", "method", "τ (px)", "triangles, mean", "of", "silhouette, worst (px)",
-                       "p99 parallax, worst (px)", "p99 depth, worst (share)", "update, median (ms)"},
+                       "p99 parallax, worst (px)", "p99 depth, worst (share)", "Hausdorff, at most (m)",
+                       "normals, mean (°)", "update, median (ms)"},
                       2);
   for (const Row& row : rows) {
     const bool judged = row.judged_px > 0;
@@ -209,6 +266,8 @@ std::string objects(const verdict::SuiteVerdict& verdict, const verdict::SuiteTi
                row.frames == 0 ? "—" : fmt::format("{:.0f}", row.triangles / static_cast<double>(row.frames)),
                std::to_string(row.full), judged ? short_number(row.silhouette_px) : "—",
                judged ? short_number(row.parallax_px) : "—", judged ? short_number(row.depth_rel) : "—",
+               row.compared > 0 ? short_number(row.hausdorff_m) : "—",
+               row.compared > 0 ? short_number(row.normal_deg) : "—",
                row.update_ms.empty() ? "—" : short_number(quantile(row.update_ms, 0.5))});
   }
   return table.empty() ? std::string() : "\n## Objects\n\n" + table.text();
@@ -262,7 +321,7 @@ std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::Suit
   if (!words.sentences.empty()) out += '\n';
   for (const std::string& sentence : words.sentences) out += fmt::format("- {}\n", markdown_cell(sentence));
   out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + offenders(verdict) +
-         economy(verdict, timing) + objects(verdict, timing) + stability(verdict);
+         economy(verdict, timing) + spending(verdict) + objects(verdict, timing) + stability(verdict);
   return out;
 }
 

@@ -33,9 +33,11 @@ class TablesCommand : public ProgramTest {
 };
 
 TEST_F(TablesCommand, WhatIsNotReproducedIsSaidInOneLine) {
-  for (const char* name : {"P3", "P4"}) {
-    expect_refused({"tables", name, "--out", "out"}, std::string(name) + " is not reproduced by this build");
-  }
+  expect_refused({"tables", "P3", "--out", "out"}, "P3 is not reproduced by this build");
+}
+
+TEST_F(TablesCommand, AMeshThatIsNotThereIsNamed) {
+  expect_refused({"tables", "P4", "--mesh", "gone.ply", "--out", "out"}, "gone.ply");
 }
 
 TEST_F(TablesCommand, AnUnknownTableNamesTheNearest) {

@@ -311,19 +311,17 @@ TEST(StandIn, OfOneTableAloneChangesNoOther) {
 }
 
 TEST(ChooseTables, NoneNamedIsAllThereAre) {
-  EXPECT_EQ(choose_tables({}), (std::vector<std::string>{"P0", "P1", "P2"}));
+  EXPECT_EQ(choose_tables({}), (std::vector<std::string>{"P0", "P1", "P2", "P4"}));
   EXPECT_EQ(choose_tables({"P2", "P0", "P2"}), (std::vector<std::string>{"P0", "P2"}));
   EXPECT_EQ(choose_tables({"P2"}), (std::vector<std::string>{"P2"}));
 }
 
 TEST(ChooseTables, WhatIsNotReproducedIsSaidSo) {
-  for (const char* name : {"P3", "P4"}) {
-    try {
-      choose_tables({"P0", name});
-      ADD_FAILURE() << name << " was taken";
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("not reproduced by this build"), std::string::npos);
-    }
+  try {
+    choose_tables({"P0", "P3"});
+    ADD_FAILURE() << "P3 was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("not reproduced by this build"), std::string::npos);
   }
   EXPECT_THROW(choose_tables({"p0"}), InputError);
   EXPECT_THROW(choose_tables({""}), InputError);

@@ -52,8 +52,19 @@ export interface RunStability {
   jitter_vertices: number; jitter_px: Figure; path_share: Figure; path_px: Figure; revisits: number; revisit_share: Figure;
 }
 
+export interface FrameEconomy { excess: Figure; needed_triangles: Figure; slack: Figure; slack_in_view: Figure }
+export interface RunEconomy {
+  excess: Figure; excess_frames: number; slack: Figure; slack_in_view: Figure; slack_frames: number;
+}
+/** O7, of runs around meshes only. */
+export interface RunSpace {
+  self_intersection: Figure; hausdorff_m: { least: Figure; most: Figure };
+  normal_deg: { max: Figure; mean: Figure; turned_share: Figure }; projected_area: Figure; judged_frames: number;
+}
+
 export interface Frame extends Figures {
   index: number;
+  economy: FrameEconomy;
   stability: FrameStability;
   findings: Finding[];
 }
@@ -66,7 +77,7 @@ export interface Run {
   method: string;
   threshold_px: number;
   frames: Frame[];
-  summary: Figures & { frames: number; worst_frame: number; stability: RunStability };
+  summary: Figures & { frames: number; worst_frame: number; stability: RunStability; economy: RunEconomy; space?: RunSpace };
 }
 
 export interface Gate { name: string; run: string; limit: string; value: Figure; pass: boolean }
@@ -82,6 +93,7 @@ export interface Mesh {
 
 export interface Results {
   suite: string;
+  yardstick: string | null;
   pass: boolean;
   interrupted: boolean;
   viewport: [number, number];

@@ -8,6 +8,7 @@ import { facts, meshRuns, methods, results, terrainRuns, timing, trajectories } 
 import { definitionsSection, findingsSection, gatesSection, matrixSection, terrainsSection } from './tables';
 import { objectsSection } from './objects';
 import { el, plural, short } from './text';
+import { economySection } from './economy';
 import { stabilitySection } from './stability';
 import { timelineSection } from './timeline';
 
@@ -63,7 +64,7 @@ function picturesSection(): HTMLElement | null {
 }
 
 const sections = [
-  matrixSection(), ...(terrainRuns.length === 0 ? [] : [accuracySection()]),
+  matrixSection(), ...(terrainRuns.length === 0 ? [] : [accuracySection(), economySection()]),
   ...(meshRuns.length === 0 ? [] : [objectsSection()]),
   ...(results.runs.length === 0 ? [] : [stabilitySection(), timelineSection()]), picturesSection(),
   gatesSection(), findingsSection(), terrainsSection(), definitionsSection(),

@@ -74,16 +74,23 @@ export function objectsSection(): HTMLElement {
       short(full.get(first.terrain)?.triangles ?? null), short(Math.round(mean)),
       short(frames.reduce((least, frame) => Math.min(least, frame.triangles), Infinity)),
       ...MEASURES.map((measure) => short(worst(frames.map(measure.of)))),
+      short(worst(runs.map((run) => run.summary.space?.hausdorff_m.most ?? null))),
+      short(worst(runs.map((run) => run.summary.space?.normal_deg.mean ?? null))),
+      short(worst(runs.map((run) => run.summary.space?.self_intersection ?? null))),
+      short(worst(runs.map((run) => run.summary.space?.projected_area ?? null))),
       short(median(runs.flatMap((run) => timingOf.get(run.id)?.update_ms.frames ?? []))),
     ];
   });
   return section('objects', 'Objects',
     el('p', { class: 'lead' }, 'General meshes have no plan to cover and no height over a point: silhouettes, depths along ' +
-      'the same ray and parallax are judged against the full scene. The table has the worst frame; in the chart each frame is a point.'),
+      'the same ray and parallax are judged against the full scene. The table has the worst frame; in the chart each frame is a point. Distances ' +
+      'in space, normals and self-intersections are measured in some frames; the full mesh’s own self-intersections count too.'),
     table([
       { head: 'Mesh' }, { head: 'Method' }, { head: 'τ (px)', number: true }, { head: 'Objects', number: true },
       { head: 'Triangles, full', number: true }, { head: 'mean', number: true }, { head: 'least', number: true },
       ...MEASURES.map(({ label, unit }) => ({ head: `${label} (${unit})`, number: true })),
+      { head: 'Hausdorff, at most (m)', number: true }, { head: 'normals, mean (°)', number: true },
+      { head: 'self-intersections', number: true }, { head: 'projected area (share)', number: true },
       { head: 'update, median (ms)', number: true },
     ], rows, 'Objects'),
     controls(mesh, flight, which), el('figure', {}, plot.element));
