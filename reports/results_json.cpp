@@ -114,30 +114,31 @@ Json distance_json(bool any, oracle::CertifiedDistance distance) {
   return {{"least", judged(any, distance.least_m)}, {"most", judged(any, distance.most_m)}};
 }
 
-Json space_json(const verdict::SpaceFigures& frame) {
-  const bool any = frame.judged;
-  const oracle::Likeness& likeness = frame.likeness;
-  return {{"self_intersection", any ? Json(frame.self_intersections) : Json(nullptr)},
-          {"hausdorff_m", distance_json(any, likeness.hausdorff())},
-          {"to_mesh_m", distance_json(any, likeness.to_mesh)},
-          {"from_mesh_m", distance_json(any, likeness.from_mesh)},
-          {"normal_deg",
-           {{"max", judged(any, likeness.normal_max_deg)},
-            {"mean", judged(any, likeness.normal_mean_deg)},
-            {"turned_share", judged(any, likeness.turned_share)}}},
-          {"projected_area", judged(frame.area_judged, frame.projected_area)}};
+/// O7. Frames of terrains have none of it; their summaries say so, figure by figure.
+void add_space(Json& out, const FrameVerdict& frame) {
+  if (frame.subject == Subject::terrain) return;
+  const verdict::SpaceFigures& space = frame.space;
+  const bool any = space.judged;
+  const oracle::Likeness& likeness = space.likeness;
+  out["self_intersection"] = any ? Json(space.self_intersections) : Json(nullptr);
+  out["hausdorff_m"] = distance_json(any, likeness.hausdorff());
+  out["to_mesh_m"] = distance_json(any, likeness.to_mesh);
+  out["from_mesh_m"] = distance_json(any, likeness.from_mesh);
+  out["normal_deg"] = {{"max", judged(any, likeness.normal_max_deg)},
+                       {"mean", judged(any, likeness.normal_mean_deg)},
+                       {"turned_share", judged(any, likeness.turned_share)}};
+  out["projected_area"] = judged(space.area_judged, space.projected_area);
 }
 
-Json space_json(const verdict::SpaceSummary& run) {
-  const bool any = run.frames > 0;
-  return {{"self_intersection", any ? Json(run.self_intersections) : Json(nullptr)},
-          {"hausdorff_m", distance_json(any, run.hausdorff_m)},
-          {"normal_deg",
-           {{"max", judged(any, run.normal_max_deg)},
-            {"mean", judged(any, run.normal_mean_deg)},
-            {"turned_share", judged(any, run.turned_share)}}},
-          {"projected_area", judged(run.area_frames > 0, run.projected_area)},
-          {"judged_frames", run.frames}};
+void add_space(Json& out, const RunSummary& run) {
+  const verdict::SpaceSummary& space = run.space;
+  const bool any = space.frames > 0;
+  out["self_intersection"] = any ? Json(space.self_intersections) : Json(nullptr);
+  out["hausdorff_m"] = distance_json(any, space.hausdorff_m);
+  out["normal_deg"] = {{"max", judged(any, space.normal_max_deg)},
+                       {"mean", judged(any, space.normal_mean_deg)},
+                       {"turned_share", judged(any, space.turned_share)}};
+  out["projected_area"] = judged(space.area_frames > 0, space.projected_area);
 }
 
 /// What a frame and a trajectory have in common, in CONTRACT's order.
@@ -176,7 +177,7 @@ void add_figures(Json& out, const Judged& frame) {
                    {"judged_px", frame.pop_px.count}};
   out["stability"] = stability_json(frame.stability);
   out["economy"] = economy_json(frame);
-  if (!plan) out["space"] = space_json(frame.space);
+  add_space(out, frame);
   out["shape"] = {{"slivers", plan ? Json(frame.shape.slivers) : Json(nullptr)},
                   {"min_quality", judged(plan, frame.shape.min_quality)},
                   {"mean_quality", judged(plan, frame.shape.mean_quality)},

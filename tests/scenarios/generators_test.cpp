@@ -167,7 +167,7 @@ TEST(Generators, BadNumbersAreRefused) {
   EXPECT_EQ(message([](TerrainSource& s) { s.z_scale = std::nan(""); }),
             "terrain 't': z_scale is nan; give a finite number");
   EXPECT_EQ(message([](TerrainSource& s) { s.file = "also.tif"; }),
-            "terrain 't': needs exactly one of file, generator, samples");
+            "terrain 't': needs exactly one of file, points, generator, samples");
   EXPECT_THAT(message([](TerrainSource& s) { s.z_scale = 1e9; }), testing::HasSubstr("mend z_scale"));
 }
 

@@ -56,10 +56,10 @@ export interface FrameEconomy { excess: Figure; needed_triangles: Figure; slack:
 export interface RunEconomy {
   excess: Figure; excess_frames: number; slack: Figure; slack_in_view: Figure; slack_frames: number;
 }
-/** O7, of runs around meshes only. */
+/** O7: null for runs over terrains. */
 export interface RunSpace {
   self_intersection: Figure; hausdorff_m: { least: Figure; most: Figure };
-  normal_deg: { max: Figure; mean: Figure; turned_share: Figure }; projected_area: Figure; judged_frames: number;
+  normal_deg: { max: Figure; mean: Figure; turned_share: Figure }; projected_area: Figure;
 }
 
 export interface Frame extends Figures {
@@ -77,7 +77,9 @@ export interface Run {
   method: string;
   threshold_px: number;
   frames: Frame[];
-  summary: Figures & { frames: number; worst_frame: number; stability: RunStability; economy: RunEconomy; space?: RunSpace };
+  summary: Figures & RunSpace & {
+    frames: number; worst_frame: number; stability: RunStability; economy: RunEconomy;
+  };
 }
 
 export interface Gate { name: string; run: string; limit: string; value: Figure; pass: boolean }

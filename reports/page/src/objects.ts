@@ -74,10 +74,10 @@ export function objectsSection(): HTMLElement {
       short(full.get(first.terrain)?.triangles ?? null), short(Math.round(mean)),
       short(frames.reduce((least, frame) => Math.min(least, frame.triangles), Infinity)),
       ...MEASURES.map((measure) => short(worst(frames.map(measure.of)))),
-      short(worst(runs.map((run) => run.summary.space?.hausdorff_m.most ?? null))),
-      short(worst(runs.map((run) => run.summary.space?.normal_deg.mean ?? null))),
-      short(worst(runs.map((run) => run.summary.space?.self_intersection ?? null))),
-      short(worst(runs.map((run) => run.summary.space?.projected_area ?? null))),
+      short(worst(runs.map((run) => run.summary.hausdorff_m.most))),
+      short(worst(runs.map((run) => run.summary.normal_deg.mean))),
+      short(worst(runs.map((run) => run.summary.self_intersection))),
+      short(worst(runs.map((run) => run.summary.projected_area))),
       short(median(runs.flatMap((run) => timingOf.get(run.id)?.update_ms.frames ?? []))),
     ];
   });
