@@ -7,7 +7,8 @@
 namespace plumbline {
 
 void LodMethod::prepare_objects(const std::vector<Mesh>& /*objects*/) {
-  throw InputError("the method takes terrains only, no objects (plumbline list methods says which take them)");
+  throw InputError(
+      "the method takes terrains only, no objects (plumbline list methods says which take them)");
 }
 
 }  // namespace plumbline

@@ -50,9 +50,9 @@ struct LodFrame {
 
 /// A level-of-detail method: the one class to derive from. No renderer, clock, file or thread in it.
 ///
-/// Life of an instance: created by its description's factory, prepared once (for a terrain or for objects), then `clone`d for every flight
-/// (clones run on different threads); each clone gets its threshold and sees the frames of one flight in
-/// order.
+/// Life of an instance: created by its description's factory, prepared once (for a terrain or for objects),
+/// then `clone`d for every flight (clones run on different threads); each clone gets its threshold and sees
+/// the frames of one flight in order.
 class LodMethod {
  public:
   virtual ~LodMethod() = default;
@@ -60,9 +60,9 @@ class LodMethod {
   /// Everything that depends on the terrain alone. `terrain` outlives the method and its clones. Throws
   /// InputError if the method cannot take this terrain (the message says which size would do).
   virtual void prepare(const Terrain& terrain) = 0;
-  /// The same for objects instead of a terrain: oriented triangle meshes in one scene, metres, each with a level
-  /// of detail of its own. No plan region is promised. Throws InputError if the method takes terrains only
-  /// (MethodDescription::takes_objects says which do), or cannot take such a mesh.
+  /// The same for objects instead of a terrain: oriented triangle meshes in one scene, metres, each with a
+  /// level of detail of its own. No plan region is promised. Throws InputError if the method takes terrains
+  /// only (MethodDescription::takes_objects says which do), or cannot take such a mesh.
   virtual void prepare_objects(const std::vector<Mesh>& objects);
   /// The mesh for this camera and the current threshold. `frame` may hold an earlier result (its memory is
   /// reused) and is overwritten whole. State kept from earlier frames is allowed.

@@ -39,7 +39,13 @@ Ball ball_around(const Mesh& mesh) {
 }
 
 Mesh read_mesh(const MeshSource& source) {
-  if (!source.file.empty()) return triangulate(read_mesh_file(source.file));
+  if (!source.file.empty()) {
+    Mesh mesh = triangulate(read_mesh_file(source.file));
+    // glTF doubles vertices along every crease; as read, nothing would be closed.
+    const std::string suffix = source.file.extension().string();
+    if (source.cut_to_manifold || suffix == ".glb" || suffix == ".gltf") mesh = welded(mesh);
+    return source.cut_to_manifold ? cut_to_manifold(mesh) : mesh;
+  }
   std::vector<std::string> names;
   for (const MeshGenerator& known : mesh_generators()) {
     if (known.name == source.generator) return known.make();

@@ -21,10 +21,11 @@ inline constexpr std::size_t kMostTriangles = 1ull << 25u;  ///< of a scene: 33 
 /// Where the objects of a scene come from: exactly one of `file`, `generator`.
 struct MeshSource {
   std::string id;
-  std::filesystem::path file;  ///< anything that read_mesh_file takes
-  std::string generator;       ///< one of mesh_generators()
-  std::vector<Vec3> at;        ///< where copies of it stand, metres; each is an object of its own
-  double scale = 1;            ///< metres per unit of the file, applied before `at`
+  std::filesystem::path file;    ///< anything that read_mesh_file takes
+  std::string generator;         ///< one of mesh_generators()
+  std::vector<Vec3> at;          ///< where copies of it stand, metres; each is an object of its own
+  double scale = 1;              ///< metres per unit of the file, applied before `at`
+  bool cut_to_manifold = false;  ///< files: weld, and open what is no manifold (mesh_file.h)
 };
 
 /// Objects that stand together in one scene.

@@ -146,7 +146,7 @@ std::vector<CameraPose> read_poses(const TomlValue& value) {
 }
 
 MeshSource read_mesh_source(const TomlTable& table, const std::filesystem::path& folder) {
-  table.allow_only({"id", "file", "generator", "at", "scale"});
+  table.allow_only({"id", "file", "generator", "at", "scale", "cut_to_manifold"});
   MeshSource source;
   source.id = table.at("id").text();
   const TomlValue* file = table.find("file");
@@ -172,6 +172,10 @@ MeshSource read_mesh_source(const TomlTable& table, const std::filesystem::path&
     }
     if (source.at.empty() || source.at.size() > kMostCopies)
       at->fail(fmt::format("has {} places; give 1 to {}, each [x, y, z]", source.at.size(), kMostCopies));
+  }
+  if (const TomlValue* cut = table.find("cut_to_manifold")) {
+    if (source.file.empty()) cut->fail("does not apply to a generator; leave it out");
+    source.cut_to_manifold = cut->boolean();
   }
   if (const TomlValue* scale = table.find("scale"))
     source.scale = scale->number_in(kLeastScale, kLargestScale);

@@ -49,7 +49,8 @@ struct Terrain {
 /// triangles a cell, south-east one first, cells in row-major order.
 Mesh reference_mesh(const Terrain& terrain);
 
-/// The south-west `columns` × `rows` samples, without points and roads. Requires: 2 ≤ columns, rows ≤ the terrain's.
+/// The south-west `columns` × `rows` samples, without points and roads. Requires: 2 ≤ columns, rows ≤ the
+/// terrain's.
 Terrain cropped(const Terrain& terrain, int columns, int rows);
 
 /// The rectangle of all samples.
