@@ -23,7 +23,6 @@ namespace plumbline {
 namespace {
 
 using greedy_tin::Delaunay;
-using greedy_tin::Facet;
 using greedy_tin::Sample;
 using greedy_tin::Scene;
 using greedy_tin::Worst;

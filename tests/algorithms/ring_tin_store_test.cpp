@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 
 class Store : public ::testing::Test {
  protected:
-  Store() {
+  void SetUp() override {
     fs::create_directories(folder_);
     terrain_.spacing_m = 10;
     terrain_.heights_m[3] = -0.0;  // must come back as it went
     terrain_.heights_m[40] = 0x1.123456789abcdp-7;
     terrain_.roads = {{{12.5, 33}, {100, 110}, {160, 70}}};
   }
-  ~Store() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
   [[nodiscard]] std::string error_of_prepare(const Terrain& terrain, const Options& options = {}) const {
     Options all = options;
     all["database"] = file_.string();

@@ -54,12 +54,12 @@ std::string ball_off(int rings, int around) {
 
 class Objects : public testing::Test {
  protected:
-  Objects() {
+  void SetUp() override {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(testing::TempDir()) / (std::string("plumbline_objects_") + test->name());
     write_whole_file(folder_ / "ball.off", ball_off(12, 20));
   }
-  ~Objects() override {
+  void TearDown() override {
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
   }
