@@ -125,15 +125,17 @@ inline int repetitions_of(const std::string& id, int repetitions) {
   return find_method(id).method->id == "greedy_tin" ? 1 : repetitions;
 }
 
-/// Every registered method with its variants, by full id.
 /// Methods and variants whose update can cost something: not those that hand out one mesh per threshold, made
-/// in minutes on the larger terrains. The full grid stays, as the floor.
+/// in minutes on the larger terrains; the full grid stays, as the floor. Nor those that simplify whole
+/// objects by their size on the screen, and ring_tin, whose rings set its triangles: both have benchmarks of
+/// their own.
 inline std::vector<std::string> all_method_ids() {
   std::vector<std::string> out;
   for (const MethodDescription& method : registered_methods()) {
     for (const VariantDescription& variant : method.variants) {
       const MethodChoice choice{&method, &variant};
       if (choice.promises(Promise::camera_blind) && !choice.promises(Promise::threshold_blind)) continue;
+      if (method.takes_objects || method.id == "ring_tin") continue;
       out.push_back(variant.name.empty() ? method.id : method.id + ":" + variant.name);
     }
   }
