@@ -51,7 +51,7 @@ MethodDescription describe_vertex_tree() {
                     {conforming, idempotent, exact_at_zero}},
                    {"no_contour",
                     "the ladder alone",
-                    {conforming, monotone_in_tau, idempotent, path_independent, exact_at_zero}},
+                    {conforming, monotone_in_tau, idempotent, exact_at_zero}},
                    {"view_dependent",
                     "nodes that turn onto the contour are split again, forced through their neighbours",
                     {conforming, idempotent, exact_at_zero}}},

@@ -63,6 +63,6 @@ export function economySection(): HTMLElement {
       : `Needed is what ${results.yardstick} draws at the same camera and the same measured p99 displacement; excess is ` +
         'drawn over needed: 1 is the goal. Frames whose error lies outside of the yardstick’s are not compared. ',
       'Slack: the share of vertices each of which could be taken out, alone, without any pixel going over τ; measured in some ' +
-      'frames of each flight.'),
+      'frames of each flight, here the mean over the flights.'),
     controls(terrain), shown);
 }
