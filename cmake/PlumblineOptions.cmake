@@ -25,6 +25,22 @@ if(PLUMBLINE_SANITIZE)
   target_compile_options(plumbline_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 
+# plumbline_precompile(<target> [headers…]): what nearly every source includes is parsed once a target, not once a source;
+# a quarter of all building. The debug preset does without, so that a source that leans on it does not build there.
+option(PLUMBLINE_PRECOMPILE "Precompile the standard headers that most sources include" ON)
+function(plumbline_precompile target)
+  if(PLUMBLINE_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional>
+                                                <map> <memory> <string> <string_view> <utility> <vector> <fmt/format.h>
+                                                ${ARGN})
+  endif()
+endfunction()
+if(PLUMBLINE_PRECOMPILE)
+  # So that ccache can tell whether a precompiled header changed.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+                      "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+endif()
+
 # plumbline_library(<folder> SOURCES … LINKS … PRIVATE_LINKS …): one static library per folder, alias plumbline::<folder>.
 function(plumbline_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
@@ -36,4 +52,5 @@ function(plumbline_library name)
                                                       $<INSTALL_INTERFACE:include/plumbline>)
   target_link_libraries(plumbline_${name} PUBLIC plumbline_fp ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS}
                                           $<BUILD_INTERFACE:plumbline_warnings>)
+  plumbline_precompile(plumbline_${name})
 endfunction()
