@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -31,9 +32,10 @@ struct SlowVerdict {
   double covered_once_m2 = 0;  ///< inside the domain
   double promised_m2 = 0;
   std::set<std::array<double, 6>>
-      t_places;                          ///< T-vertex x, y; its edge's ends x, y, in the triangle's direction
-  std::set<std::array<double, 6>> gaps;  ///< those that are off their edge
-  std::size_t cracks = 0;                ///< coincident opposite edges at different heights
+      t_places;  ///< T-vertex x, y; its edge's ends x, y, in the triangle's direction
+  std::map<std::array<double, 6>, double>
+      gaps;                ///< those that are off their edge, with the widest gap, metres
+  std::size_t cracks = 0;  ///< coincident opposite edges at different heights
   std::size_t degenerate = 0, clockwise = 0, duplicates = 0;
   [[nodiscard]] bool clean() const {
     return holes_m2.empty() && missing_m2.empty() && overlaps_m2.empty() && extras_m2.empty() &&
@@ -253,7 +255,11 @@ inline SlowVerdict slow_conformity(const Mesh& mesh, const PlanDomain& domain,
         verdict.t_places.insert(place);
         const Number share = e.a.x != e.b.x ? (Number(v.x) - e.a.x) / (Number(e.b.x) - e.a.x)
                                             : (Number(v.y) - e.a.y) / (Number(e.b.y) - e.a.y);
-        if (Number(v.z) != e.a.z + share * (Number(e.b.z) - e.a.z)) verdict.gaps.insert(place);
+        const double gap = CGAL::to_double(Number(v.z - (e.a.z + share * (Number(e.b.z) - e.a.z))));
+        if (Number(v.z) != e.a.z + share * (Number(e.b.z) - e.a.z)) {
+          double& widest = verdict.gaps[place];
+          widest = std::max(widest, std::fabs(gap));
+        }
       }
       const bool opposite =
           e.a.x == other.b.x && e.a.y == other.b.y && e.b.x == other.a.x && e.b.y == other.a.y;
