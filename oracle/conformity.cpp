@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "oracle/conformity_parts.h"
+#include "oracle/predicates.h"
 
 namespace plumbline::oracle {
 namespace {
@@ -180,10 +180,8 @@ class Check {
       Finding finding = about_triangle(FindingCode::fold_over, survey_.negative[i]);
       finding.kind = turned_[i] ? "reversed" : "folded";
       const auto& c = mesh_.triangles[survey_.negative[i]];
-      const Vec3 u = mesh_.positions[c[1]] - mesh_.positions[c[0]];
-      const Vec3 v = mesh_.positions[c[2]] - mesh_.positions[c[0]];
-      const double area = std::fabs(0.5 * (u.x * v.y - u.y * v.x));
-      finding.area_m2 = std::isfinite(area) ? area : std::numeric_limits<double>::max();
+      const auto plan = [&](std::uint32_t v) { return Vec2{mesh_.positions[v].x, mesh_.positions[v].y}; };
+      finding.area_m2 = std::fabs(plan_area_m2(std::array{plan(c[0]), plan(c[1]), plan(c[2])}));
       add(std::move(finding));
     }
   }

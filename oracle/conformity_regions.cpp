@@ -65,23 +65,14 @@ struct KeepFirst {  // pieces never overlap, so nothing is ever merged
 struct Region {
   Fault fault = Fault::none;
   double area_m2 = 0;
-  std::vector<Vec2> loop;  // the outer boundary
-  double loop_area_m2 = -1;
+  std::vector<std::vector<Vec2>> loops;
+  std::size_t outer = 0;  // of the loops: the boundary to show
   bool on_outline = false, excused = false;
   double distance_m = 0;
   std::vector<std::uint32_t> vertices, triangles;
   Vec3 at;
   bool at_vertex = false, placed = false;
 };
-
-double signed_area_m2(const std::vector<Vec2>& loop) {
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Vec2 a = loop[i] - loop[0], b = loop[i + 1] - loop[0];
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return 0.5 * twice;
-}
 
 template <typename Kernel>
 class RegionFinder {
@@ -260,12 +251,14 @@ class RegionFinder {
         while (inside(edge->twin()->face())) edge = edge->twin()->next();
       } while (edge != start);
       std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), before_in_plan), loop.end());
-      const double area = signed_area_m2(loop);
-      region.area_m2 += area;
-      if (area > region.loop_area_m2) {
-        region.loop_area_m2 = area;
-        region.loop = std::move(loop);
-      }
+      region.loops.push_back(std::move(loop));
+    }
+    region.area_m2 = plan_area_m2(region.loops);
+    double greatest = -1;
+    for (std::size_t i = 0; i < region.loops.size() && region.loops.size() > 1; ++i) {
+      const double area = plan_area_m2(region.loops[i]);
+      if (area > greatest) region.outer = i;
+      greatest = std::max(greatest, area);
     }
   }
 
@@ -303,7 +296,7 @@ class RegionFinder {
     }
     finding.at = region.at;
     finding.area_m2 = finite(std::max(0.0, region.area_m2));
-    finding.loop = std::move(region.loop);
+    if (!region.loops.empty()) finding.loop = std::move(region.loops[region.outer]);
     for (auto* list : {&region.vertices, &region.triangles}) {
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());

@@ -41,7 +41,7 @@ Survey survey(const Mesh& mesh) {
       continue;
     }
     const Sign sign = orientation(plan(mesh.positions[a]), plan(mesh.positions[b]), plan(mesh.positions[c]));
-    if (sign.by == DecidedBy::exact) ++found.exact_orientations;
+    if (sign.by != DecidedBy::double_filter) ++found.exact_orientations;
     if (sign.value > 0) continue;
     if (sign.value < 0) {
       found.negative.push_back(id);

@@ -187,18 +187,26 @@ class SlackMeter {
     return inside_segment(place(rim_.front()), place(rim_.back()), place(v));
   }
 
+  /// An ear's worth: its quality in plan; among equals the heights of its tip and of its feet. None of these
+  /// depends on the numbering of vertices or on which way the plan's axes run, so neither does the filling,
+  /// unless ears are alike in all of them.
+  struct Ear {
+    double quality = 0, tip_m = 0, low_foot_m = 0, high_foot_m = 0;
+    friend auto operator<=>(const Ear&, const Ear&) = default;
+  };
+
   /// Cuts rim_, as a polygon, into ears. False if there is no ear left while three corners or more are.
   bool fill() {
     filling_.clear();
     ring_ = rim_;
     while (ring_.size() >= 3) {
       std::size_t best = ring_.size();
-      double best_quality = 0;
+      Ear best_ear;
       for (std::size_t k = 0; k < ring_.size(); ++k) {
-        const double quality = ear_quality(k);
-        if (quality > best_quality) {
+        const Ear ear = ear_at(k);
+        if (ear.quality > 0 && (best == ring_.size() || ear > best_ear)) {
           best = k;
-          best_quality = quality;
+          best_ear = ear;
         }
       }
       if (best == ring_.size()) return false;
@@ -209,20 +217,23 @@ class SlackMeter {
     return !filling_.empty();
   }
 
-  /// 4√3·area / Σ length² in plan of the ear at ring_[k]; 0 if it is none.
-  [[nodiscard]] double ear_quality(std::size_t k) const {
+  /// The ear at ring_[k]; its quality, 4√3·area / Σ length² in plan, is 0 if it is none.
+  [[nodiscard]] Ear ear_at(std::size_t k) const {
     const std::size_t n = ring_.size();
     const std::uint32_t a = ring_[(k + n - 1) % n], b = ring_[k], c = ring_[(k + 1) % n];
-    if (turn(a, b, c) <= 0) return 0;
+    if (turn(a, b, c) <= 0) return {};
     for (const std::uint32_t other : ring_) {
       if (other == a || other == b || other == c) continue;
-      if (turn(a, b, other) >= 0 && turn(b, c, other) >= 0 && turn(c, a, other) >= 0) return 0;
+      if (turn(a, b, other) >= 0 && turn(b, c, other) >= 0 && turn(c, a, other) >= 0) return {};
     }
     const auto squared = [](Vec2 p, Vec2 q) { return (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y); };
     const Vec2 pa = place(a), pb = place(b), pc = place(c);
     const double lengths = (squared(pa, pb) + squared(pb, pc)) + squared(pc, pa);
-    return std::max(2 * std::sqrt(3.0) * std::fabs(edge_value(pa, pb, pc)) / lengths,
-                    std::numeric_limits<double>::min());
+    // The area from the tip, so that a and c may change places.
+    const double quality = 2 * std::sqrt(3.0) * std::fabs(edge_value(pa, pc, pb)) / lengths;
+    const auto height = [&](std::uint32_t v) { return mesh_.positions[v].z; };
+    return {std::max(quality, std::numeric_limits<double>::min()), height(b), std::min(height(a), height(c)),
+            std::max(height(a), height(c))};
   }
 
   /// Whether every pixel in the star of v stands the filling.

@@ -16,8 +16,8 @@ namespace plumbline::oracle {
 /// A vertex is *removable* if it can be taken out, alone, without any pixel going over τ: its star is filled
 /// with triangles between its neighbours, and no pixel in it that was at most at τ comes over it, nor does
 /// one that was over it get worse. The star is filled by cutting ears, of those that are positively oriented
-/// and hold no other neighbour the one of the best quality in plan first. So the figure is a lower bound:
-/// another filling might do where this one does not.
+/// and hold no other neighbour the one of the best quality in plan first, of equally good ones that with the
+/// highest tip. So the figure is a lower bound: another filling might do where this one does not.
 ///
 /// Not judged, and counted as kept: vertices whose star is no disc in plan (a triangle turned over, an edge
 /// with a third triangle, a fan that comes round twice) or has more than kLargestStar neighbours, and those

@@ -66,7 +66,7 @@ void compare_depths(const Camera& camera, const PixelHits& reference, const Pixe
     depth_rel.end_row();
   }
   // A camera moved by s to the right sees the point of ray (x, y, 1) at depth t in column κ·(x·t − s)/t: the
-  // two hits, which share x, lie κ·s·|1/t − 1/t′| apart.
+  // two hits, which share x, lie κ·s·|1/t − 1/t′| apart; written so that nothing cancels but the depths.
   const double moved_m =
       depth_rel.count() == 0 ? 0 : kParallaxShare * depth_sum / static_cast<double>(depth_rel.count());
   FigureBuilder parallax(depth_rel.count());
@@ -74,8 +74,8 @@ void compare_depths(const Camera& camera, const PixelHits& reference, const Pixe
     for (std::size_t pixel = y * width; pixel < (y + 1) * width; ++pixel) {
       if (reference.triangle[pixel] == PixelHits::kNoHit || mesh.triangle[pixel] == PixelHits::kNoHit)
         continue;
-      const double px =
-          camera.kappa_px * std::fabs(moved_m / reference.depth_m[pixel] - moved_m / mesh.depth_m[pixel]);
+      const double share = std::fabs(mesh.depth_m[pixel] - reference.depth_m[pixel]) / mesh.depth_m[pixel];
+      const double px = camera.kappa_px * (moved_m / reference.depth_m[pixel]) * share;
       parallax.add(px);
       if (map != nullptr) map->values[pixel] = static_cast<float>(px);
     }

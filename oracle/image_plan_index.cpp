@@ -27,9 +27,9 @@ constexpr double kEntriesTop = 12, kEntriesFiner = 5, kEntriesWhole = 40;
 /// Vertices with more edges than this are not searched for twins, so that the search stays linear.
 constexpr std::size_t kMostMatched = 64;
 
-/// Height over a point that lies on the edge between a and b: the same for (b, a).
+/// Height over a point that lies on the edge between a and b: the same for (b, a), and in a mirrored plan.
 double height_on_edge(Vec3 a, Vec3 b, Vec2 p) {
-  if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
+  if (b.z < a.z) std::swap(a, b);  // equal heights: either gives that height
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double share = ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy);

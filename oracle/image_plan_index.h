@@ -26,12 +26,12 @@ struct WeightedCorner {
   const Vec3* corner;
 };
 
-/// Height over a point inside a triangle, from its barycentric weights. Begins with the westmost corner (the
-/// southmost of two) and goes on to the other two in that order, so that the bits do not depend on how the
-/// triangle is listed.
+/// Height over a point inside a triangle, from its barycentric weights. Begins with the lowest corner and
+/// goes on to the other two by height (by weight where heights are equal), so that the bits depend neither on
+/// how the triangle is listed nor on which way the plan's axes run.
 inline double height_inside(WeightedCorner first, WeightedCorner second, WeightedCorner third) {
   const auto before = [](const WeightedCorner& p, const WeightedCorner& q) {
-    return p.corner->x != q.corner->x ? p.corner->x < q.corner->x : p.corner->y < q.corner->y;
+    return p.corner->z != q.corner->z ? p.corner->z < q.corner->z : std::fabs(p.weight) < std::fabs(q.weight);
   };
   if (before(second, first)) std::swap(first, second);
   if (before(third, second)) std::swap(second, third);

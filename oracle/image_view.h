@@ -62,9 +62,10 @@ inline double vertical_length_px(const View& view, Vec3 from, double to_z_m) {
     end = view.local({from.x, from.y, from.z + (to_z_m - from.z) * share});
     end.z = std::max(end.z, nearest);
   }
-  const Vec2 a = view.project_local(start);
-  const Vec2 b = view.project_local(end);
-  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+  // Without the picture's middle, which would round differently left and right of it.
+  const double dx = view.kappa_px * end.x / end.z - view.kappa_px * start.x / start.z;
+  const double dy = view.kappa_px * end.y / end.z - view.kappa_px * start.y / start.z;
+  return std::sqrt(dx * dx + dy * dy);
 }
 
 /// A triangle in a camera's frame, as three edge functions of the ray (x, y, 1): e_a = ray · (b × c) and so

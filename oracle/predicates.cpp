@@ -5,21 +5,23 @@
 #include <algorithm>
 #include <limits>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Interval_nt.h>
 
 namespace plumbline::oracle {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Rational = CGAL::Exact_rational;
 
-/// Where the rounded gap is below this share of the heights it is computed from, cancellation may have eaten
-/// it, and it is computed in rationals.
-constexpr double kGapCancellation = 0x1p-40;
+double finite(double figure) {
+  constexpr double most = std::numeric_limits<double>::max();
+  return std::clamp(figure, -most, most);
+}
 
 double exact_gap_m(Vec3 a, Vec3 b, Vec3 p, bool along_x) {
-  using Rational = CGAL::Exact_rational;
+  ++precision_tally().exact_figures;
   const Rational from = along_x ? a.x : a.y;
   const Rational to = along_x ? b.x : b.y;
   const Rational at = along_x ? p.x : p.y;
@@ -28,11 +30,41 @@ double exact_gap_m(Vec3 a, Vec3 b, Vec3 p, bool along_x) {
   return CGAL::to_double(gap);
 }
 
+Rational twice_area(std::span<const Vec2> loop) {
+  Rational twice = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 p = loop[i], q = loop[i + 1 < loop.size() ? i + 1 : 0];
+    twice += Rational(p.x) * Rational(q.y) - Rational(p.y) * Rational(q.x);
+  }
+  return twice;
+}
+
 }  // namespace
 
-int exact_orientation(Vec2 a, Vec2 b, Vec2 c) {
-  return static_cast<int>(
+PrecisionTally& precision_tally() {
+  thread_local PrecisionTally tally;
+  return tally;
+}
+
+Sign careful_orientation(Vec2 a, Vec2 b, Vec2 c) {
+  {
+    using Interval = CGAL::Interval_nt<false>;
+    const Interval::Protector round_upwards;
+    const Interval cx = c.x, cy = c.y;
+    const Interval determinant =
+        (Interval(a.x) - cx) * (Interval(b.y) - cy) - (Interval(a.y) - cy) * (Interval(b.x) - cx);
+    // An overflow makes a bound infinite or NaN: then neither comparison below holds.
+    const bool positive = determinant.inf() > 0, negative = determinant.sup() < 0;
+    const bool zero = determinant.inf() == 0 && determinant.sup() == 0;
+    if (positive || negative || zero) {
+      ++precision_tally().interval_signs;
+      return {positive ? 1 : negative ? -1 : 0, DecidedBy::interval};
+    }
+  }
+  ++precision_tally().exact_signs;
+  const int sign = static_cast<int>(
       CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y)));
+  return {sign, DecidedBy::exact};
 }
 
 HeightGap height_gap(Vec3 a, Vec3 b, Vec3 p) {
@@ -40,19 +72,23 @@ HeightGap height_gap(Vec3 a, Vec3 b, Vec3 p) {
   const bool along_x = a.x != b.x;
   if (along_x ? b.x < a.x : b.y < a.y) std::swap(a, b);
   const auto profile = [along_x](Vec3 v) { return Vec2{along_x ? v.x : v.y, v.z}; };
-  HeightGap gap;
-  gap.sign = orientation(profile(a), profile(b), profile(p)).value;
-  if (gap.sign == 0) return gap;
-  const double share = along_x ? (p.x - a.x) / (b.x - a.x) : (p.y - a.y) / (b.y - a.y);
-  gap.metres = p.z - (a.z + share * (b.z - a.z));
-  const double scale = std::max({std::fabs(a.z), std::fabs(b.z), std::fabs(p.z)});
-  const bool doubtful = !std::isfinite(gap.metres) || !(std::fabs(gap.metres) > kGapCancellation * scale);
-  if (doubtful) {
-    constexpr double least = std::numeric_limits<double>::denorm_min();
-    constexpr double most = std::numeric_limits<double>::max();
-    gap.metres = gap.sign * std::clamp(std::fabs(exact_gap_m(a, b, p, along_x)), least, most);
-  }
-  return gap;
+  const Sign side = orientation(profile(a), profile(b), profile(p));
+  if (side.value == 0) return {0, 0, side.by};
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  const double size = std::max(least, std::fabs(finite(exact_gap_m(a, b, p, along_x))));
+  return {side.value, side.value * size, side.by};
+}
+
+double plan_area_m2(std::span<const Vec2> loop) {
+  ++precision_tally().exact_figures;
+  return finite(CGAL::to_double(Rational(twice_area(loop) / 2)));
+}
+
+double plan_area_m2(std::span<const std::vector<Vec2>> loops) {
+  ++precision_tally().exact_figures;
+  Rational twice = 0;
+  for (const auto& loop : loops) twice += twice_area(loop);
+  return finite(CGAL::to_double(Rational(twice / 2)));
 }
 
 }  // namespace plumbline::oracle

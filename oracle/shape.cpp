@@ -46,15 +46,16 @@ PlanShape plan_shape(const Vec3& a, const Vec3& b, const Vec3& c) {
   Vec2 to_c{c.x - a.x, c.y - a.y};
   const double square = to_b.x * to_b.x + to_b.y * to_b.y + to_c.x * to_c.x + to_c.y * to_c.y;
   if (!(square >= kLeastSquare && square <= kGreatestSquare)) {
-    // Shape does not depend on size: bring the size to 1. Halves first, since a difference may overflow as
-    // well.
+    // Shape does not depend on size: bring the size to about 1, by a power of two so that no digit changes.
+    // Halves first, since a difference may overflow as well.
     to_b = {0.5 * b.x - 0.5 * a.x, 0.5 * b.y - 0.5 * a.y};
     to_c = {0.5 * c.x - 0.5 * a.x, 0.5 * c.y - 0.5 * a.y};
     const double reach =
         std::max({std::fabs(to_b.x), std::fabs(to_b.y), std::fabs(to_c.x), std::fabs(to_c.y)});
     if (reach == 0) return {};
-    to_b = {to_b.x / reach, to_b.y / reach};
-    to_c = {to_c.x / reach, to_c.y / reach};
+    const int exponent = -std::ilogb(reach);
+    to_b = {std::scalbn(to_b.x, exponent), std::scalbn(to_b.y, exponent)};
+    to_c = {std::scalbn(to_c.x, exponent), std::scalbn(to_c.y, exponent)};
   }
   return plan_shape(to_b, to_c);
 }

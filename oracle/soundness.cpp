@@ -25,6 +25,17 @@ bool collinear(Vec3 a, Vec3 b, Vec3 c) {
          orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}).value == 0;
 }
 
+/// Where a finding about a whole triangle stands: its least corner along x, then y, then z, so that neither
+/// the order of corners nor the numbering of vertices moves it.
+Vec3 place_of(const Mesh& mesh, const Triangle& triangle) {
+  const auto key = [&](std::uint32_t v) {
+    const Vec3& p = mesh.positions[v];
+    return std::array{p.x, p.y, p.z};
+  };
+  return mesh.positions[*std::min_element(triangle.begin(), triangle.end(),
+                                          [&](std::uint32_t u, std::uint32_t v) { return key(u) < key(v); })];
+}
+
 struct Side {
   std::uint32_t low, high, triangle;
   bool forward;  // runs from low to high in its triangle
@@ -94,7 +105,8 @@ class Survey {
       const bool repeats = a == b || b == c || c == a;
       if (repeats || collinear(p, q, r)) {
         ++report_.counts.degenerate;
-        add(FindingCode::degenerate, repeats ? "repeated_vertex" : "", p, {a, b, c}, {t});
+        add(FindingCode::degenerate, repeats ? "repeated_vertex" : "", place_of(mesh_, {a, b, c}), {a, b, c},
+            {t});
       }
       if (!repeats) sound_.push_back(t);
     }
@@ -112,7 +124,7 @@ class Survey {
       if (sorted[k].first != sorted[k - 1].first) continue;
       ++report_.counts.duplicate;
       const Triangle& corners = sorted[k].first;
-      add(FindingCode::duplicate, "", mesh_.positions[corners[0]], {corners[0], corners[1], corners[2]},
+      add(FindingCode::duplicate, "", place_of(mesh_, corners), {corners[0], corners[1], corners[2]},
           {sorted[k - 1].second, sorted[k].second});
     }
   }

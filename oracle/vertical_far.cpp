@@ -6,6 +6,7 @@
 
 #include <CGAL/Exact_rational.h>
 
+#include "oracle/predicates.h"
 #include "oracle/vertical_overlay.h"
 
 namespace plumbline::oracle::detail {
@@ -38,6 +39,7 @@ ExactPolygon cut(const ExactPolygon& polygon, Distance distance) {
 }  // namespace
 
 std::vector<GridTriangle> cut_to_grid(const std::array<Vec3, 3>& triangle, const Terrain& terrain) {
+  ++precision_tally().exact_figures;
   const Rational spacing = terrain.spacing_m;
   ExactPolygon polygon;
   for (const Vec3& p : triangle)
