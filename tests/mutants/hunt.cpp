@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -58,11 +57,15 @@ using properties::LawInput;
 using properties::LawOutcome;
 using Kind = LawOutcome::Kind;
 
-std::vector<const Law*> promised_laws(std::string_view method) {
+struct Asked {
+  const Law* law = nullptr;
+  bool promised = false;  ///< and not known to fail; the others are watched for having something to judge
+};
+std::vector<Asked> laws_of(std::string_view method) {
   const MethodChoice choice = find_method(method);
-  std::vector<const Law*> laws;
+  std::vector<Asked> laws;
   for (const Law& law : properties::all_laws()) {
-    if (law.applies(choice) && law.promised(choice) && !known_to_fail(method, law.id)) laws.push_back(&law);
+    if (law.applies(choice)) laws.push_back({&law, law.promised(choice) && !known_to_fail(method, law.id)});
   }
   return laws;
 }
@@ -101,28 +104,29 @@ std::vector<std::pair<std::string, std::string>> fly(std::string_view method) {
 
 std::optional<Kill> hunt(const Mutant& mutant, std::uint64_t cases) {
   const std::string method(mutant.method);
-  const std::vector<const Law*> laws = promised_laws(method);
+  const std::vector<Asked> laws = laws_of(method);
   std::vector<std::uint64_t> judged(laws.size(), 0);
   for (std::uint64_t k = 0; k < cases; ++k) {
     const LawInput input = properties::draw_case(method, kSeed, k).input;
     for (std::size_t l = 0; l < laws.size(); ++l) {
+      if (!laws[l].promised && judged[l] > 0) continue;
       std::optional<LawOutcome> outcome;
       {
         const Switched on(mutant.name);
-        outcome = try_law(*laws[l], input);
+        outcome = try_law(*laws[l].law, input);
       }
       if (!outcome || outcome->kind == Kind::vacuous) continue;
       ++judged[l];
-      if (outcome->kind == Kind::held) continue;
-      const std::optional<LawOutcome> without = try_law(*laws[l], input);
+      if (outcome->kind == Kind::held || !laws[l].promised) continue;
+      const std::optional<LawOutcome> without = try_law(*laws[l].law, input);
       if (without && without->kind == Kind::violated) continue;
-      return Kill{"law " + laws[l]->id, k + 1, outcome->what};
+      return Kill{"law " + laws[l].law->id, k + 1, outcome->what};
     }
   }
-  // What judge_unmutated finds judged must not fall silent.
+  // judge_unmutated finds something to judge for each of them.
   for (std::size_t l = 0; l < laws.size(); ++l) {
     if (judged[l] == 0) {
-      return Kill{"nothing_judged (110)", cases, fmt::format("law {} had nothing to judge", laws[l]->id)};
+      return Kill{"nothing_judged (110)", cases, fmt::format("law {} had nothing to judge", laws[l].law->id)};
     }
   }
   const auto without = fly(method);
@@ -138,17 +142,18 @@ std::optional<Kill> hunt(const Mutant& mutant, std::uint64_t cases) {
 
 std::vector<std::string> judge_unmutated(std::string_view method, std::uint64_t cases) {
   std::vector<std::string> bad;
-  for (const Law* law : promised_laws(method)) {
+  for (const Asked& asked : laws_of(method)) {
     std::uint64_t judged = 0;
     for (std::uint64_t k = 0; k < cases; ++k) {
-      const auto outcome = try_law(*law, properties::draw_case(std::string(method), kSeed, k).input);
+      const auto outcome = try_law(*asked.law, properties::draw_case(std::string(method), kSeed, k).input);
       if (!outcome || outcome->kind == Kind::vacuous) continue;
       ++judged;
+      if (!asked.promised) break;
       if (outcome->kind != Kind::violated) continue;
-      bad.push_back(fmt::format("law {}, case {}: {}", law->id, k, outcome->what));
+      bad.push_back(fmt::format("law {}, case {}: {}", asked.law->id, k, outcome->what));
       break;
     }
-    if (judged == 0) bad.push_back(fmt::format("law {}: nothing judged in {} cases", law->id, cases));
+    if (judged == 0) bad.push_back(fmt::format("law {}: nothing judged in {} cases", asked.law->id, cases));
   }
   for (const auto& [gate, what] : fly(method)) bad.push_back(fmt::format("{}: {}", gate, what));
   return bad;

@@ -111,7 +111,7 @@ constexpr auto kMutants = std::to_array<Mutant>({
     // M5: the vertex tree.
     {"m5_single_level", kM5NoContour, "the partner counts among the neighbours: nothing ever collapses",
      "nothing_judged"},
-    {"m5_identifier_test_missing", kM5NoContour, "collapses without the identifier test", "conforming"},
+    {"m5_identifier_test_missing", kM5, "collapses without the identifier test", "conforming"},
     {"m5_split_not_forced", kM5View, "splits without the neighbours that are in the way", "conforming"},
     {"m5_refines_too_far", kM5NoContour, "refinement overshoots the rung by eight triangles", "M5_ladder"},
     {"m5_second_triangle_lost", kM5NoContour, "a split brings back one of its two triangles", "conforming"},
