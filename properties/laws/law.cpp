@@ -53,6 +53,7 @@ const std::vector<Law>& all_laws() {
       law_ring_collapses_within_tolerance(),
       law_isolated_error_is_conservative(),
       law_vertex_tree_is_as_built(),
+      law_vertex_tree_keeps_neighbourhoods(),
       law_vertex_tree_holds_contour(),
       law_vertex_tree_meets_ladder(),
   };

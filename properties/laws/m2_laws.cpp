@@ -196,20 +196,30 @@ LawOutcome check_collapses(const LawInput& input) {
           std::move(finding));
     }
     // What must have been tried: in `fixpoint` every edge. In the others one scan need not be enough: only
-    // edges at vertices that this update returned to zero, and around which nothing collapsed afterwards.
-    const auto lone = [&](std::uint32_t v) { return map.is_live(v) && map.depth(v) == 1; };
-    const auto untouched = [&](std::uint32_t v) {
-      const auto triangles = adjacency.triangles_at(v);
-      return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
-        const auto& corners = m2.full_tin().mesh.triangles[t];
-        return std::all_of(corners.begin(), corners.end(), lone);
+    // edges at vertices that this update returned to zero, around which nothing of higher index, and so
+    // later, collapsed.
+    const auto as_scanned = [&](std::uint32_t e, std::uint32_t live) {
+      const auto earlier = [&](std::uint32_t v) {
+        members.clear();
+        map.members(v, members);
+        return std::all_of(members.begin(), members.end(),
+                           [&](std::uint32_t m) { return map.is_live(m) || map.removed_by(m) < e; });
+      };
+      std::vector<std::uint32_t> tree;
+      map.members(live, tree);
+      return std::all_of(tree.begin(), tree.end(), [&](std::uint32_t m) {
+        const auto triangles = adjacency.triangles_at(m);
+        return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+          const auto& corners = m2.full_tin().mesh.triangles[t];
+          return std::all_of(corners.begin(), corners.end(), earlier);
+        });
       });
     };
     const auto& edges = adjacency.edges();
     for (std::uint32_t e = 0; e < edges.size() && m2.full_tin().roads.empty(); ++e) {
       if (!map.is_active(e)) continue;
       const std::uint32_t u = map.rep(edges[e][0]), w = map.rep(edges[e][1]);
-      if (!fixpoint && (gone[u] + gone[w] == 0 || !untouched(u) || !untouched(w))) continue;
+      if (!fixpoint && (gone[u] + gone[w] == 0 || !as_scanned(e, u) || !as_scanned(e, w))) continue;
       map.star(u, from_star);
       map.star(w, to_star);
       const double forth = collapse_error_m(at, from_star, u, w), back = collapse_error_m(at, to_star, w, u);

@@ -91,6 +91,7 @@ class Replay {
       return "it does not stand at the edge's middle";
     if (lines_[a] != lines_[b]) return "its children lie on different sides of the terrain";
     lines_.push_back(lines_[a]);
+    rings_.emplace_back();
     double radius_m = 0;
     for (std::size_t t = 0; t < now_.size(); ++t) {
       if (!live_[t] || !(has(now_[t], a) || has(now_[t], b))) continue;
@@ -108,6 +109,7 @@ class Replay {
         return "a triangle's normal turns too far";
       double sides = 0;
       for (std::size_t k = 0; k < 3; ++k) {
+        rings_.back().push_back(now_[t][k]);
         const Vec3 side = tree_.positions[now_[t][(k + 1) % 3]] - tree_.positions[now_[t][k]];
         sides += dot(side, side);
         radius_m = std::max(radius_m, length(tree_.positions[now_[t][k]] - at));
@@ -131,6 +133,11 @@ class Replay {
     return {};
   }
 
+  /// Nodes that stood around made node p when it was made, with repeats.
+  [[nodiscard]] const std::vector<std::uint32_t>& ring(std::uint32_t p) const {
+    return rings_[p - tree_.originals];
+  }
+
  private:
   /// A cone takes in its children's by their half angles, which costs some rounding each time.
   static constexpr double kConeRounding = 1e-6;
@@ -147,6 +154,7 @@ class Replay {
   std::vector<bool> live_;
   std::vector<std::uint8_t> lines_;
   std::vector<std::vector<Vec3>> normals_;
+  std::vector<std::vector<std::uint32_t>> rings_;  ///< by made node
   double cos_limit_ = 0;
 };
 
@@ -210,6 +218,41 @@ LawOutcome check_contour(const LawInput& input) {
     on_contour = front && back;
   }
   return collapsed && on_contour ? held() : vacuous("nothing collapsed, or no contour");
+}
+
+LawOutcome check_neighbourhoods(const LawInput& input) {
+  if (too_large(input.terrain)) return vacuous("more triangles than are replayed");
+  const Built built = build(input);
+  const VertexTree& tree = built.tree;
+  Replay replay(built);
+  for (auto p = static_cast<std::uint32_t>(tree.originals); p < tree.nodes(); ++p) {
+    if (!replay.make(p).empty()) return vacuous("the tree is not as recorded: another law's matter");
+  }
+  const std::unique_ptr<LodMethod> method = prepared_method(input);
+  LodFrame frame;
+  bool some = false;
+  for (const Camera& camera : cameras(input)) {
+    method->update(camera, frame);
+    // Made: present, or part of what is.
+    std::vector<std::uint8_t> made(tree.nodes(), 0);
+    for (const std::uint64_t key : frame.vertex_keys) {
+      for (const std::uint32_t v : below(tree, static_cast<std::uint32_t>(key))) made[v] = 1;
+    }
+    for (auto p = static_cast<std::uint32_t>(tree.originals); p < tree.nodes(); ++p) {
+      if (made[p] == 0) continue;
+      for (const std::uint32_t around : replay.ring(p)) {
+        some = some || around >= tree.originals;
+        if (made[around] != 0) continue;
+        return violated(
+            fmt::format(
+                "node {} is collapsed, though node {}, which stood beside it when the tree was built, "
+                "is not made yet",
+                p, around),
+            law_finding("wrong_neighbourhood", tree.positions[p]));
+      }
+    }
+  }
+  return some ? held() : vacuous("no collapse next to another");
 }
 
 /// The paper's step 6: the share of the triangles for a screen size, thresholds times `scale`.
@@ -288,6 +331,18 @@ Law law_vertex_tree_is_as_built() {
           .applies = is_vertex_tree,
           .promised = is_vertex_tree,
           .check = check_tree};
+}
+
+Law law_vertex_tree_keeps_neighbourhoods() {
+  return {.id = "M5_C1_neighbourhood_of_building",
+          .statement =
+              "for every terrain, flight and threshold, whatever stood around a node when the tree was built "
+              "was made "
+              "before the node is",
+          .source = "METHODS M5.C1",
+          .applies = is_vertex_tree,
+          .promised = is_vertex_tree,
+          .check = check_neighbourhoods};
 }
 
 Law law_vertex_tree_holds_contour() {

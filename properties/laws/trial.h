@@ -77,6 +77,7 @@ Law law_ring_prices_are_distances();
 Law law_ring_collapses_within_tolerance();
 Law law_isolated_error_is_conservative();
 Law law_vertex_tree_is_as_built();
+Law law_vertex_tree_keeps_neighbourhoods();
 Law law_vertex_tree_holds_contour();
 Law law_vertex_tree_meets_ladder();
 
