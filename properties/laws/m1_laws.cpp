@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -150,9 +151,36 @@ double screen_error_px(const Terrain& terrain, Block block, Vec3 center, const C
 /// The recomputed error is rounded otherwise; relative.
 constexpr double kErrorRounding = 1e-9;
 
+/// A node whose four children are roots though its screen error asks for none of them; nothing if there is
+/// none.
+std::optional<Vec3> needless_split(const HaarQuadtree& haar, const LawInput& input, const Camera& camera) {
+  std::optional<Vec3> found;
+  const Forest& forest = haar.forest();
+  const auto go = [&](const auto& self, const Node& node, Cut::Slot slot) -> void {
+    if (haar.cut().is_root(slot) || found) return;
+    const Cut::Slot first = haar.cut().children(slot);
+    for (int k = 0; k < 4; ++k) self(self, child(node, k), first + static_cast<Cut::Slot>(k));
+    if (!haar.cut().children_are_roots(slot)) return;
+    const Vec3 at = forest.position(node);
+    const double error_px = screen_error_px(input.terrain, block_of(forest, node), at, camera);
+    if (error_px < input.threshold_px * (1 - kErrorRounding)) found = at;
+  };
+  for (std::size_t p = 0; p < forest.patches(); ++p) go(go, forest.patch(p), static_cast<Cut::Slot>(p));
+  return found;
+}
+
 LawOutcome check_cut(const LawInput& input) {
   const std::unique_ptr<LodMethod> method = prepared_method(input);
   const Camera camera = judged_camera(input);
+  if (option_number(input.options, "max_nodes", 0) == 0) {
+    LodFrame first;
+    method->update(camera, first);
+    if (const auto at = needless_split(as_haar(*method), input, camera)) {
+      return violated("the first frame splits a node under the threshold",
+                      law_finding("needless_split", *at));
+    }
+    method->reset();
+  }
   LodFrame frame = fly(*method, cameras(input));
   const HaarQuadtree& haar = as_haar(*method);
   const Forest& forest = haar.forest();
@@ -168,6 +196,9 @@ LawOutcome check_cut(const LawInput& input) {
     return violated(
         fmt::format("the cut still moves after {} updates with one camera", forest.leaf_level() + 2),
         law_finding("cut_never_settles", camera.position));
+  }
+  if (const auto at = needless_split(haar, input, camera); at && budget == 0) {
+    return violated("a node under the threshold stays split", law_finding("needless_split", *at));
   }
   std::size_t roots = 0;
   bool coarse = false;
@@ -288,8 +319,8 @@ Law law_haar_cut_settles_within_tau() {
   return {.id = "M1_cut_settles_within_tau",
           .statement =
               "for every terrain, flight and threshold, the cut comes to rest within its levels' number of "
-              "updates; "
-              "then no root in the picture has a screen error over the threshold, or the node budget is kept",
+              "updates; then, and in the first frame, no node is split for an error under the threshold, no "
+              "root in the picture has one over it, and the node budget is kept",
           .source = "METHODS M1 (update)",
           .applies = is_haar,
           .promised = is_haar,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Prints the table of docs/mutants.md. With names: only these, and what was found.
+// mutants            prints the table of docs/mutants.md
+// mutants NAME…      only those whose names begin so, each with what was found
 #include <algorithm>
-#include <string_view>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -15,22 +16,17 @@ int main(int argc, char** argv) {
     fmt::print("{}", mutant_table());
     return 0;
   }
-  const std::string_view first = argv[1];
-  if (first == "--clean") {
-    for (int k = 2; k < argc; ++k) {
-      for (const std::string& line : judge_unmutated(argv[k])) fmt::print("{}: {}\n", argv[k], line);
-    }
-    return 0;
-  }
-  int survived = 0;
+  bool some = false, all_found = true;
   for (const Mutant& mutant : mutant_list()) {
     if (std::none_of(argv + 1, argv + argc, [&](const char* name) { return mutant.name.starts_with(name); }))
       continue;
+    some = true;
     const auto kill = hunt(mutant);
-    survived += kill ? 0 : 1;
-    fmt::print("{:<32} {}\n", mutant.name,
-               kill ? fmt::format("{} after {} cases: {}", kill->by, kill->cases, kill->what) : "SURVIVED");
+    all_found = all_found && kill;
+    fmt::print("{}: {}\n", mutant.name,
+               kill ? fmt::format("{} after {} cases: {}", kill->by, kill->cases, kill->what) : "survived");
     std::fflush(stdout);
   }
-  return survived == 0 ? 0 : 1;
+  if (!some) fmt::print(stderr, "mutants: no name begins so; see tests/mutants/mutant_list.cpp\n");
+  return some && all_found ? 0 : 1;
 }
