@@ -74,11 +74,10 @@ SplitFunction::SplitFunction(const Terrain& terrain, const ClusterGrid& grid, Sp
     if (s.apex_count == 2 && !PLUMBLINE_MUTANT(m4_apex_pair_forgotten)) {
       value = std::max(value, std::fabs(z[s.node] - (z[s.apexes[0]] + z[s.apexes[1]]) / 2));
     }
-    const int children =
-        s.child_count - (PLUMBLINE_MUTANT(m4_last_child_forgotten) && s.child_count == 4 ? 1 : 0);
-    for (int c = 0; c < children; ++c) {
-      const double child_e = e[s.children[static_cast<std::size_t>(c)]];
-      value = std::max(value, PLUMBLINE_MUTANT(m4_saturation_forgotten) ? child_e : q * child_e);
+    for (int c = 0; c < s.child_count; ++c) {
+      if (PLUMBLINE_MUTANT(m4_last_child_forgotten) && c == 3) break;
+      value = std::max(value, (PLUMBLINE_MUTANT(m4_saturation_forgotten) ? 1 : q) *
+                                  e[s.children[static_cast<std::size_t>(c)]]);
     }
     e[s.node] = value;
     nodes_[order_.index(s.at, s.level)] = {z[s.node], value};

@@ -130,8 +130,8 @@ class IsolatedQuadtree final : public LodMethod {
   void divide(Node node) {
     if (!grid_->holds_ground(node)) return;
     ++frame_->counters.visited;
-    const bool whole = PLUMBLINE_MUTANT(m3_no_data_test_missing) || grid_->whole(node);
-    if (node.side > 2 && (!whole || splits(node))) {
+    if (node.side > 2 &&
+        (!(PLUMBLINE_MUTANT(m3_no_data_test_missing) || grid_->whole(node)) || splits(node))) {
       ++frame_->counters.split;
       const int h = node.half();
       divide({node.i, node.j + h, h});

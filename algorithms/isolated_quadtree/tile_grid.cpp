@@ -43,9 +43,10 @@ void TileGrid::copy_coarse(int grain) {
     const int j = first_row_ + static_cast<int>(row) * grain;
     for (std::size_t column = 0; column < coarse.columns; ++column) {
       const int i = static_cast<int>(column) * grain;
-      if (!has_data(i, j)) continue;
-      const int from = PLUMBLINE_MUTANT(m3_coarse_heights_shifted) && i > 0 ? i - 1 : i;
-      coarse.heights_m[row * coarse.columns + column] = terrain_.z(from, j);
+      if (has_data(i, j)) {
+        coarse.heights_m[row * coarse.columns + column] =
+            terrain_.z(PLUMBLINE_MUTANT(m3_coarse_heights_shifted) && i > 0 ? i - 1 : i, j);
+      }
     }
   });
 }

@@ -197,8 +197,10 @@ CollapseMap::Refusal CollapseMap::refusal(std::uint32_t edge, bool guard) {
     const std::vector<Vec3>& at = tin_.mesh.positions;
     for (const Corner& corner : star_) {
       if (corner.next == to || corner.after == to) continue;
-      const int turn = tin::plan_orientation(at[to], at[corner.next], at[corner.after]);
-      if (PLUMBLINE_MUTANT(m2_guard_lets_flat_through) ? turn < 0 : turn <= 0) return Refusal::fold;
+      if (tin::plan_orientation(at[to], at[corner.next], at[corner.after]) <=
+          (PLUMBLINE_MUTANT(m2_guard_lets_flat_through) ? -1 : 0)) {
+        return Refusal::fold;
+      }
     }
   }
   return Refusal::none;

@@ -12,7 +12,7 @@ struct Mutant {
   std::string_view name;    ///< as PLUMBLINE_MUTANT has it
   std::string_view method;  ///< full id of the variant it is hunted in: one that promises what it breaks
   std::string_view slip;    ///< what the implementer did
-  std::string_view killer;  ///< the law or oracle that should find it; the hunt may find it earlier
+  std::string_view killer;  ///< the law or oracle that finds it first
 };
 
 std::span<const Mutant> mutant_list();

@@ -45,7 +45,7 @@ TEST_P(Mutants, IsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Mutants, testing::ValuesIn(mutant_list().begin(), mutant_list().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 std::set<std::string> hunted_methods() {
   std::set<std::string> methods;
@@ -61,8 +61,8 @@ TEST_P(Unmutated, IsClean) {
   EXPECT_THAT(judge_unmutated(GetParam()), testing::IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Unmutated, testing::ValuesIn(hunted_methods()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, Unmutated, testing::ValuesIn(hunted_methods()), [](const auto& test) {
+  std::string name = test.param;
   std::replace(name.begin(), name.end(), ':', '_');
   return name;
 });
