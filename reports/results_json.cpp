@@ -152,6 +152,7 @@ void add_figures(Json& out, const Judged& frame) {
   out["visible_cracks"] = plan ? Json(frame.visible_cracks) : Json(nullptr);
   out["largest_gap_m"] = judged(plan, frame.largest_gap_m);
   out["largest_gap_px"] = judged(plan, frame.largest_gap_px);
+  out["nothing_judged"] = frame.nothing_judged;
   out["vertical_m"] = vertical_json(frame.vertical_m);
   out["displacement_px"] = {{"max", judged(seen, displacement.max)},
                             {"p999", judged(seen, displacement.p999)},

@@ -28,6 +28,7 @@ inline constexpr std::array kGateFigures{
     std::string_view{"visible_cracks"},
     std::string_view{"largest_gap_m"},
     std::string_view{"largest_gap_px"},
+    std::string_view{"nothing_judged"},
     std::string_view{"vertical_m.max"},
     std::string_view{"vertical_m.certain_max"},
     std::string_view{"vertical_m.rms"},

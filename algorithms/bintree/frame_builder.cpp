@@ -7,6 +7,8 @@
 #include <limits>
 #include <tuple>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::bintree {
 
 FrameBuilder::FrameBuilder(const Terrain& terrain, const LevelOrder& order)
@@ -20,7 +22,7 @@ void FrameBuilder::begin(LodFrame& frame) {
     std::fill(slots_.begin(), slots_.end(), 0);
     stamp_ = 0;
   }
-  ++stamp_;
+  if (!PLUMBLINE_MUTANT(m4_stale_vertices) || stamp_ == 0) ++stamp_;
 }
 
 std::uint32_t FrameBuilder::vertex(GridPoint p) {
@@ -37,6 +39,10 @@ void FrameBuilder::emit(const RightTriangle& triangle) {
   const std::uint32_t apex = vertex(triangle.apex);
   const std::uint32_t left = vertex(triangle.left);
   const std::uint32_t right = vertex(triangle.right);
+  if (PLUMBLINE_MUTANT(m4_wrong_winding) && triangle.left.i == triangle.right.i) {
+    frame_->mesh.triangles.push_back({apex, right, left});
+    return;
+  }
   frame_->mesh.triangles.push_back({apex, left, right});
 }
 

@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "algorithms/bintree/sweep.h"
+#include "algorithms/mutant.h"
 
 namespace plumbline::block_bintree {
 
@@ -70,6 +71,7 @@ void BlockBintree::update(const Camera& camera, LodFrame& frame) {
   const ClusterGrid& grid = prepared_->split_function.grid();
   for (int b = 0; b < grid.cluster_rows(); ++b) {
     for (int a = 0; a < grid.cluster_columns(); ++a) {
+      if (PLUMBLINE_MUTANT(m4_last_cluster_skipped) && a > 0 && a + 1 == grid.cluster_columns()) continue;
       if (settings_.levels_by_distance) {
         descend_block({0, a, b});
       } else {
@@ -89,13 +91,17 @@ bool BlockBintree::culled(GridPoint node, int level) const {
     return true;
   }
   if (!settings_.cull_triangles) return false;
+  if (PLUMBLINE_MUTANT(m4_culls_in_front)) {
+    return frame_.camera.depth(prepared_->split_function.point(node)) <
+           prepared_->split_function.grid().hypotenuse_m(level);
+  }
   const SplitFunction& f = prepared_->split_function;
   return frame_.camera.outside_view_cone(f.point(node), prepared_->radii_m[f.order().index(node, level)]);
 }
 
 void BlockBintree::descend(const RightTriangle& triangle, int level, int last_level) {
   ++counters_.visited;
-  if (level == last_level) {
+  if (level == last_level - (PLUMBLINE_MUTANT(m4_last_level_lost) ? 1 : 0)) {
     builder_.emit(triangle);
     return;
   }
@@ -115,7 +121,9 @@ void BlockBintree::descend(const RightTriangle& triangle, int level, int last_le
     replaced_[blocks.index(blocks.containing(node, level / 2 - blocks.exponent()))] = stamp_;
   }
   descend(triangle.left_half(node), level + 1, last_level);
-  descend(triangle.right_half(node), level + 1, last_level);
+  descend(PLUMBLINE_MUTANT(m4_left_half_twice) && level + 1 == last_level ? triangle.left_half(node)
+                                                                          : triangle.right_half(node),
+          level + 1, last_level);
 }
 
 // by_distance: the block quadtree is descended by distance alone; in a block the bintree goes from its two

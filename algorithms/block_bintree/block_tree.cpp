@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::block_bintree {
 
 BlockTree::BlockTree(const Terrain& terrain, const bintree::ClusterGrid& grid, int exponent)
@@ -34,6 +36,7 @@ BlockTree::BlockTree(const Terrain& terrain, const bintree::ClusterGrid& grid, i
         const BlockId id{level, column, row};
         HeightRange range = heights_[index(children(id)[0])];
         for (const BlockId child : children(id)) {
+          if (PLUMBLINE_MUTANT(m4_heights_of_first_child)) break;
           range.low_m = std::min(range.low_m, heights_[index(child)].low_m);
           range.high_m = std::max(range.high_m, heights_[index(child)].high_m);
         }
@@ -58,7 +61,8 @@ bool BlockTree::outside_view_cone(BlockId id, const Camera& camera) const {
   const double half_rise_m = (range.high_m - range.low_m) / 2;
   const Vec3 centre_m{middle.i * grid_.spacing_m(), middle.j * grid_.spacing_m(), range.low_m + half_rise_m};
   return camera.outside_view_cone(centre_m,
-                                  std::sqrt(2 * half_side_m * half_side_m + half_rise_m * half_rise_m));
+                                  (PLUMBLINE_MUTANT(m4_cull_radius_halved) ? 0.5 : 1) *
+                                      std::sqrt(2 * half_side_m * half_side_m + half_rise_m * half_rise_m));
 }
 
 double BlockTree::distance_m(BlockId id, Vec3 point) const {

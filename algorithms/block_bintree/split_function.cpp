@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "algorithms/bintree/sweep.h"
+#include "algorithms/mutant.h"
 
 namespace plumbline::block_bintree {
 namespace {
@@ -27,7 +28,9 @@ double depth_change_ratio(double depth_ratio, double slope) {
 
 }  // namespace
 
-SplitConstants published_constants(double depth_ratio) { return {depth_ratio, 1 + depth_ratio / 2}; }
+SplitConstants published_constants(double depth_ratio) {
+  return {depth_ratio, 1 + depth_ratio / (PLUMBLINE_MUTANT(m4_saturation_too_small) ? 4 : 2)};
+}
 
 SplitConstants repaired_constants(double depth_ratio, double steepest_slope) {
   SplitConstants out = published_constants(depth_ratio);
@@ -68,11 +71,14 @@ SplitFunction::SplitFunction(const Terrain& terrain, const ClusterGrid& grid, Sp
   double* e = e_by_sample.data();
   bintree::sweep_bottom_up(grid_, [&, z, e, q](const bintree::SweepNode& s) {
     double value = std::fabs(z[s.node] - (z[s.left] + z[s.right]) / 2);
-    if (s.apex_count == 2) {
+    if (s.apex_count == 2 && !PLUMBLINE_MUTANT(m4_apex_pair_forgotten)) {
       value = std::max(value, std::fabs(z[s.node] - (z[s.apexes[0]] + z[s.apexes[1]]) / 2));
     }
-    for (int c = 0; c < s.child_count; ++c)
-      value = std::max(value, q * e[s.children[static_cast<std::size_t>(c)]]);
+    for (int c = 0; c < s.child_count; ++c) {
+      if (PLUMBLINE_MUTANT(m4_last_child_forgotten) && c == 3) break;
+      value = std::max(value, (PLUMBLINE_MUTANT(m4_saturation_forgotten) ? 1 : q) *
+                                  e[s.children[static_cast<std::size_t>(c)]]);
+    }
     e[s.node] = value;
     nodes_[order_.index(s.at, s.level)] = {z[s.node], value};
   });
@@ -91,8 +97,12 @@ double SplitFunction::deviation_m(GridPoint node) const {
 
 SplitFunction::Frame SplitFunction::frame(const Camera& camera, double threshold_px) const {
   Frame out{camera, camera.kappa_px / threshold_px, {}};
+  if (PLUMBLINE_MUTANT(m4_threshold_squared)) out.px_ratio = camera.kappa_px / (threshold_px * threshold_px);
+  if (PLUMBLINE_MUTANT(m4_single_level)) out.px_ratio = 0;
   for (int level = 0; level < grid_.levels(); ++level) {
-    out.depth_limit_m.push_back(grid_.hypotenuse_m(level) / constants_.depth_ratio);
+    const int of = PLUMBLINE_MUTANT(m4_length_of_wrong_level) ? std::max(level - 1, 0) : level;
+    out.depth_limit_m.push_back(
+        PLUMBLINE_MUTANT(m4_length_term_forgotten) ? 0 : grid_.hypotenuse_m(of) / constants_.depth_ratio);
   }
   return out;
 }

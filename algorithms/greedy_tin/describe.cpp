@@ -16,6 +16,7 @@
 
 #include "algorithms/greedy_tin/delaunay.h"
 #include "algorithms/greedy_tin/scene.h"
+#include "algorithms/mutant.h"
 #include "algorithms/registry.h"
 #include "scenarios/error.h"
 
@@ -53,7 +54,10 @@ class GreedyTin final : public LodMethod {
     std::uint32_t version = 0;  ///< of the triangle; an older one is void
   };
   /// Order of the heap: the worst first; equal ones are the same sample, seen from two triangles.
-  static bool later(const Candidate& a, const Candidate& b) { return b.worst.before(a.worst); }
+  static bool later(const Candidate& a, const Candidate& b) {
+    if (PLUMBLINE_MUTANT(gt_least_error_first)) return a.worst.before(b.worst);
+    return b.worst.before(a.worst);
+  }
 
   void offer(const Worst& worst, std::uint32_t triangle);
   void scan(const Delaunay& network, std::uint32_t triangle, double limit_px);
@@ -105,7 +109,7 @@ void GreedyTin::update(const Camera& camera, LodFrame& frame) {
       unbounded.erase(std::unique(unbounded.begin(), unbounded.end()), unbounded.end());
       for (const std::uint32_t t : unbounded) {
         const Worst worst = scene_.worst_piece(make_facet(terrain, network.corners(t)), limit_px);
-        if (worst.error_px > limit_px) offer(worst, t);
+        if (worst.error_px > limit_px && !PLUMBLINE_MUTANT(gt_between_samples_not_seen)) offer(worst, t);
       }
       unbounded.clear();
       continue;

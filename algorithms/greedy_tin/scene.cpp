@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::greedy_tin {
 namespace {
 
@@ -252,7 +254,8 @@ void Scene::bound_half(const Facet& facet, int i, int j, bool upper, double enou
                             : greatest_weight_px_;
     greatest_m = std::max(greatest_m, std::fabs(delta_m));
     weight = std::max(weight, here);
-    nearest_m = std::min(nearest_m, depth_m + delta_m * u_d_);
+    nearest_m =
+        std::min(nearest_m, depth_m + (PLUMBLINE_MUTANT(gt_displaced_depth_forgotten) ? 0 : delta_m * u_d_));
     if (std::fabs(delta_m) > worst_here) {
       worst_here = std::fabs(delta_m);
       worst_at = p;

@@ -3,6 +3,8 @@
 
 #include "algorithms/haar_quadtree/dual_mesh.h"
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::haar_quadtree {
 namespace {
 
@@ -27,7 +29,8 @@ class Walk {
         const bool north = b + 1 < along;
         cell(here);
         if (east) side_by_side(here, here + 1);
-        if (north) one_above_other(here, here + across);
+        if (north && !(PLUMBLINE_MUTANT(m1_patch_border_skipped) && !east))
+          one_above_other(here, here + across);
         if (east && north) corner(here, here + 1, here + across, here + across + 1);
       }
     }
@@ -76,6 +79,7 @@ class Walk {
 
   /// The root on the way down to a corner.
   [[nodiscard]] std::uint32_t vertex_at(Slot cell, Corner corner) const {
+    if (PLUMBLINE_MUTANT(m1_neighbour_one_level_down) && !cut_.is_root(cell)) corner = Corner(3 - corner);
     while (!cut_.is_root(cell)) cell = cut_.children(cell) + corner;
     return cut_.vertex(cell);
   }
@@ -86,7 +90,17 @@ class Walk {
     const std::uint32_t b = vertex_at(se, north_west);
     const std::uint32_t c = vertex_at(ne, south_west);
     const std::uint32_t d = vertex_at(nw, south_east);
+    if (PLUMBLINE_MUTANT(m1_diagonal_swapped) && a != b && b != c && c != d && d != a) {
+      *next_++ = {a, b, d};
+      *next_++ = {b, c, d};
+      return;
+    }
+    if (PLUMBLINE_MUTANT(m1_fan_triangle_dropped) && c == d && a != b && b != c) return;
     if (a != b && b != c) *next_++ = {a, b, c};
+    if (PLUMBLINE_MUTANT(m1_wrong_winding) && c != d && d != a) {
+      *next_++ = {a, d, c};
+      return;
+    }
     if (c != d && d != a) *next_++ = {a, c, d};
   }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::haar_quadtree {
 
 Forest::Forest(const Terrain& terrain, int leaf_level)
@@ -37,11 +39,13 @@ Forest::Inner Forest::build(const Node& node) {
   const double s00 = c[0].mean_m, s01 = c[1].mean_m, s10 = c[2].mean_m, s11 = c[3].mean_m;
   // One Haar step, mean-normalised, so that coefficients are metres.
   const double horizontal = (s00 - s01 + s10 - s11) / 4;
-  const double vertical = (s00 + s01 - s10 - s11) / 4;
+  const double vertical =
+      PLUMBLINE_MUTANT(m1_haar_sign) ? (s00 + s01 - s10 + s11) / 4 : (s00 + s01 - s10 - s11) / 4;
   const double diagonal = (s00 - s01 - s10 + s11) / 4;
   const Inner made{
-      (s00 + s01 + s10 + s11) / 4,
-      std::max(std::max(std::abs(horizontal), std::abs(vertical)), std::abs(diagonal)),
+      PLUMBLINE_MUTANT(m1_mean_of_three) ? (s00 + s01 + s10 + s10) / 4 : (s00 + s01 + s10 + s11) / 4,
+      std::max(std::max(std::abs(horizontal), std::abs(vertical)),
+               PLUMBLINE_MUTANT(m1_diagonal_detail_forgotten) ? 0 : std::abs(diagonal)),
       std::min(std::min(c[0].low_m, c[1].low_m), std::min(c[2].low_m, c[3].low_m)),
       std::max(std::max(c[0].high_m, c[1].high_m), std::max(c[2].high_m, c[3].high_m)),
   };
@@ -58,7 +62,9 @@ Forest::Box Forest::box(const Node& node) const {
 
 bool Forest::culled(const Node& node, const Camera& camera) const {
   const Box bounds = box(node);
-  return camera.outside_view_cone((bounds.low + bounds.high) * 0.5, length(bounds.high - bounds.low) * 0.5);
+  return camera.outside_view_cone(
+      (bounds.low + bounds.high) * 0.5,
+      length(bounds.high - bounds.low) * (PLUMBLINE_MUTANT(m1_cull_radius_halved) ? 0.25 : 0.5));
 }
 
 Vec2 Forest::extent_m() const {

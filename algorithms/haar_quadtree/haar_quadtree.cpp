@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "algorithms/haar_quadtree/dual_mesh.h"
+#include "algorithms/mutant.h"
 #include "scenarios/error.h"
 
 namespace plumbline::haar_quadtree {
@@ -23,6 +24,10 @@ constexpr double kLeastAlpha = 0x1p-20;
 void HaarQuadtree::prepare(const Terrain& terrain) {
   forest_ = std::make_shared<const Forest>(terrain, leaf_level(terrain));
   reset();
+}
+
+void HaarQuadtree::reset() {
+  if (!PLUMBLINE_MUTANT(m1_reset_forgotten)) first_frame_ = true;
 }
 
 void HaarQuadtree::update(const Camera& camera, LodFrame& frame) {
@@ -62,6 +67,10 @@ SampleBlock HaarQuadtree::reference(const Terrain&) const {
 std::unique_ptr<LodMethod> HaarQuadtree::clone() const {
   auto copy = std::make_unique<HaarQuadtree>(settings_);
   copy->forest_ = forest_;
+  if (PLUMBLINE_MUTANT(m1_clone_shares_state)) {
+    copy->cut_ = cut_;
+    copy->first_frame_ = first_frame_;
+  }
   copy->set_threshold_px(threshold_px());
   return copy;
 }
@@ -103,7 +112,8 @@ void HaarQuadtree::place(const Node& node, Cut::Slot slot, Update& pass, LodFram
   if (settings_.morph && cut_.children_are_roots(slot)) {
     // Geomorphing: C_i = α·C_i⁰ + (1−α)·P, α from 0 at τ to 1 at λτ.
     const double tau = threshold_px();
-    alpha = std::clamp((pass.error_px(node) - tau) / (settings_.lambda * tau - tau), 0.0, 1.0);
+    alpha = std::clamp((pass.error_px(node) - tau) / (settings_.lambda * tau - tau),
+                       PLUMBLINE_MUTANT(m1_morph_clamped_wrongly) ? 0.5 : 0.0, 1.0);
   }
   if (alpha < kLeastAlpha) {
     // The children have met in the parent: one vertex, and the triangles between them are gone.
@@ -115,7 +125,9 @@ void HaarQuadtree::place(const Node& node, Cut::Slot slot, Update& pass, LodFram
   if (alpha == 1) return;
   const Vec3 parent = forest_->position(node);
   for (std::uint32_t v = placed_ - 4; v < placed_; ++v) {
-    frame.mesh.positions[v] = alpha * frame.mesh.positions[v] + (1 - alpha) * parent;
+    frame.mesh.positions[v] = PLUMBLINE_MUTANT(m1_morph_weights_swapped)
+                                  ? (1 - alpha) * frame.mesh.positions[v] + alpha * parent
+                                  : alpha * frame.mesh.positions[v] + (1 - alpha) * parent;
   }
 }
 

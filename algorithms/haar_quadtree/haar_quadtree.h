@@ -26,7 +26,7 @@ class HaarQuadtree final : public LodMethod {
   void prepare(const Terrain& terrain) override;
   void update(const Camera& camera, LodFrame& frame) override;
   [[nodiscard]] SampleBlock reference(const Terrain& terrain) const override;
-  void reset() override { first_frame_ = true; }
+  void reset() override;
   [[nodiscard]] std::unique_ptr<LodMethod> clone() const override;
 
   /// The cut of the latest frame, and the forest it is a cut of. Requires: prepared.

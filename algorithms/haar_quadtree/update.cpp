@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <queue>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::haar_quadtree {
 namespace {
 
@@ -29,6 +31,7 @@ bool Update::collapse(const Node& node, Cut& cut, Cut::Slot slot) {
   const Cut::Slot below = cut.split(slot);
   bool all_roots = true;
   for (int k = 0; k < 4; ++k) all_roots = collapse(child(node, k), cut, nth(below, k)) && all_roots;
+  if (PLUMBLINE_MUTANT(m1_single_level)) return false;
   if (!all_roots || !(error_px(node) < tau_px_)) return false;
   cut.take_back(slot);
   return true;
@@ -66,7 +69,7 @@ void Update::from_roots(const Cut& before, Cut& after) {
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return b < a; });
   for (const Candidate& candidate : candidates_) {
-    if (roots_ + 3 > settings_.max_nodes) break;
+    if (roots_ + (PLUMBLINE_MUTANT(m1_budget_off_by_one_split) ? 0 : 3) > settings_.max_nodes) break;
     after.split(candidate.to);
     ++counters_.split;
     roots_ += 3;
@@ -79,7 +82,7 @@ void Update::visit(const Cut& before, Cut::Slot from, Cut& after, Cut::Slot to, 
     ++roots_;
     if (node.level == forest_.leaf_level()) return;
     const double error = error_px(node);
-    if (!(error > tau_px_)) return;
+    if (!(error > (PLUMBLINE_MUTANT(m1_split_late) ? 2 * tau_px_ : tau_px_))) return;
     if (settings_.max_nodes > 0) {
       candidates_.push_back({error, forest_.index(node), node, from, to});
       return;
@@ -88,7 +91,8 @@ void Update::visit(const Cut& before, Cut::Slot from, Cut& after, Cut::Slot to, 
     ++counters_.split;
     return;
   }
-  if (before.children_are_roots(from) && error_px(node) < tau_px_) {
+  if (before.children_are_roots(from) &&
+      error_px(node) < (PLUMBLINE_MUTANT(m1_merge_early) ? 2 * tau_px_ : tau_px_)) {
     ++counters_.merged;
     ++roots_;
     return;

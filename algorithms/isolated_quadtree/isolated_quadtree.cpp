@@ -20,6 +20,7 @@
 
 #include "algorithms/isolated_quadtree/frustum.h"
 #include "algorithms/isolated_quadtree/tile_grid.h"
+#include "algorithms/mutant.h"
 
 namespace plumbline {
 namespace {
@@ -106,8 +107,12 @@ class IsolatedQuadtree final : public LodMethod {
       for (int a = 0; a < grid_->tiles_x(); ++a) {
         const Node square = grid_->tile(a, b);
         const Vec2 low{square.i * terrain.spacing_m, std::max(square.j, 0) * terrain.spacing_m};
-        const Vec2 high{std::min(square.i + square.side, terrain.columns - 1) * terrain.spacing_m,
+        const int last_column = terrain.columns - (PLUMBLINE_MUTANT(m3_tile_border_off_by_one) ? 0 : 1);
+        const Vec2 high{std::min(square.i + square.side, last_column) * terrain.spacing_m,
                         (square.j + square.side) * terrain.spacing_m};
+        if (PLUMBLINE_MUTANT(m3_cull_box_flat) &&
+            frustum.excludes({low.x, low.y, grid_->lowest_m(a, b)}, {high.x, high.y, grid_->lowest_m(a, b)}))
+          continue;
         if (frustum.excludes({low.x, low.y, grid_->lowest_m(a, b)}, {high.x, high.y, grid_->highest_m(a, b)}))
           continue;
         frame_->domain.add_rectangle(low, high);
@@ -125,7 +130,8 @@ class IsolatedQuadtree final : public LodMethod {
   void divide(Node node) {
     if (!grid_->holds_ground(node)) return;
     ++frame_->counters.visited;
-    if (node.side > 2 && (!grid_->whole(node) || splits(node))) {
+    if (node.side > 2 &&
+        (!(PLUMBLINE_MUTANT(m3_no_data_test_missing) || grid_->whole(node)) || splits(node))) {
       ++frame_->counters.split;
       const int h = node.half();
       divide({node.i, node.j + h, h});
@@ -142,6 +148,7 @@ class IsolatedQuadtree final : public LodMethod {
   [[nodiscard]] bool splits(Node node) const {
     ++frame_->counters.evaluated;
     const TileGrid::Record& record = grid_->record(node);
+    if (PLUMBLINE_MUTANT(m3_single_level)) return record.error_m > 0;
     const double spacing_m = grid_->terrain().spacing_m;
     const Vec3 center{(node.i + node.half()) * spacing_m, (node.j + node.half()) * spacing_m,
                       record.center_m};
@@ -150,6 +157,7 @@ class IsolatedQuadtree final : public LodMethod {
     if (squared_m2 == 0) return true;
     const double scaled_error = camera_->kappa_px * record.error_m;
     if (!settings_.with_cosine) {
+      if (PLUMBLINE_MUTANT(m3_distance_squared)) return scaled_error > threshold_px() * squared_m2;
       return scaled_error * scaled_error > threshold_px() * threshold_px() * squared_m2;
     }
     const double depth_m = dot(way, camera_->forward);
@@ -174,7 +182,7 @@ class IsolatedQuadtree final : public LodMethod {
       return Span{span.begin, announced_.size()};
     };
     tile.north = list(true);
-    tile.west = list(false);
+    if (!PLUMBLINE_MUTANT(m3_west_not_announced)) tile.west = list(false);
   }
 
   void draw(TileInSight& tile) {
@@ -189,19 +197,20 @@ class IsolatedQuadtree final : public LodMethod {
     if (const TileInSight* t = seen(tile.a + 1, tile.b + 1)) {
       share(north, tile_.side, borders_[t->south.begin]);
     }
-    if (upper != nullptr) share(north, upper->south);
+    if (upper != nullptr && !PLUMBLINE_MUTANT(m3_border_not_shared)) share(north, upper->south);
     if (left != nullptr) share(west, left->east);
 
     for (std::size_t n = tile.nodes.begin; n < tile.nodes.end; ++n) use(nodes_[n]);
     if (const TileInSight* lower = seen(tile.a, tile.b - 1)) use(south, lower->north);
     if (const TileInSight* right = seen(tile.a + 1, tile.b)) use(east, right->west);
-    if (upper != nullptr) average(north, upper->south);
+    if (upper != nullptr && !PLUMBLINE_MUTANT(m3_upper_not_averaged)) average(north, upper->south);
     if (left != nullptr) average(west, left->east);
 
     for (std::size_t n = tile.nodes.begin; n < tile.nodes.end; ++n) draw(nodes_[n]);
 
     tile.south = list_border(south, borders_);
     tile.east = list_border(east, borders_);
+    if (PLUMBLINE_MUTANT(m3_tile_left_stale)) used_.clear();
     for (const std::size_t slot : used_) vertex_[slot] = kNone;
     used_.clear();
   }
@@ -266,7 +275,8 @@ class IsolatedQuadtree final : public LodMethod {
       if (next == theirs.begin || next == theirs.end || borders_[next].k == mine.k) continue;
       const int before = borders_[next - 1].k, after = borders_[next].k;
       const double z0 = stored_m(before), z1 = stored_m(after);
-      frame_->mesh.positions[mine.vertex].z = z0 + (z1 - z0) * (mine.k - before) / (after - before);
+      const int along = PLUMBLINE_MUTANT(m3_average_from_wrong_end) ? after - mine.k : mine.k - before;
+      frame_->mesh.positions[mine.vertex].z = z0 + (z1 - z0) * along / (after - before);
     }
   }
 
@@ -330,14 +340,18 @@ class IsolatedQuadtree final : public LodMethod {
   /// From slot `at`, where `last_` stands, `steps` strides on. Split points are dyadic: where an edge's
   /// middle is no vertex, nothing finer on it is.
   void draw_edge(std::ptrdiff_t at, std::ptrdiff_t stride, int steps) {
-    const int half = steps / 2;
+    const int half = PLUMBLINE_MUTANT(m3_split_point_dropped) && steps == 2 ? 0 : steps / 2;
     if (half > 0 && vertex_[static_cast<std::size_t>(at + half * stride)] != kNone) {
       draw_edge(at, stride, half);
       draw_edge(at + half * stride, stride, half);
       return;
     }
     const std::uint32_t next = vertex_[static_cast<std::size_t>(at + steps * stride)];
-    frame_->mesh.triangles.push_back({center_, last_, next});
+    if (PLUMBLINE_MUTANT(m3_wrong_winding) && stride == -1) {
+      frame_->mesh.triangles.push_back({center_, next, last_});
+    } else {
+      frame_->mesh.triangles.push_back({center_, last_, next});
+    }
     last_ = next;
   }
 

@@ -9,6 +9,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::isolated_quadtree {
 
 TileGrid::TileGrid(const Terrain& terrain, int tile_side)
@@ -41,7 +43,10 @@ void TileGrid::copy_coarse(int grain) {
     const int j = first_row_ + static_cast<int>(row) * grain;
     for (std::size_t column = 0; column < coarse.columns; ++column) {
       const int i = static_cast<int>(column) * grain;
-      if (has_data(i, j)) coarse.heights_m[row * coarse.columns + column] = terrain_.z(i, j);
+      if (has_data(i, j)) {
+        coarse.heights_m[row * coarse.columns + column] =
+            terrain_.z(PLUMBLINE_MUTANT(m3_coarse_heights_shifted) && i > 0 ? i - 1 : i, j);
+      }
     }
   });
 }
@@ -74,10 +79,12 @@ void TileGrid::fill_tile(int a, int b) {
         const Node node{i, j, side};
         Record& record = records_[level(side)][slot(node)];
         if (has_data(i + h, j + h)) record.center_m = terrain_.z(i + h, j + h);
+        if (PLUMBLINE_MUTANT(m3_centre_height_forgotten)) record.center_m = 0;
         if (side == 2) continue;  // the smallest nodes draw every sample they have: no error
         const double below = std::max(std::max(error_m({i, j, h}), error_m({i + h, j, h})),
                                       std::max(error_m({i, j + h, h}), error_m({i + h, j + h, h})));
-        record.error_m = std::max(own_error_m(node), below);
+        record.error_m =
+            PLUMBLINE_MUTANT(m3_error_not_maxed) ? own_error_m(node) : std::max(own_error_m(node), below);
       }
     }
   }
@@ -103,6 +110,7 @@ double TileGrid::own_error_m(Node node) const {
     edge(0, k, 0, k + 2);
     edge(4, k, 4, k + 2);
     edge(k, 2, k + 2, 2);  // spokes to the edges' midpoints
+    if (PLUMBLINE_MUTANT(m3_spoke_forgotten)) continue;
     edge(2, k, 2, k + 2);
     edge(k, k, k + 2, k + 2);  // and to the corners
     edge(4 - k, k, 2 - k, k + 2);

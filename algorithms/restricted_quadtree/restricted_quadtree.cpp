@@ -27,6 +27,7 @@
 #include "algorithms/bintree/cluster_grid.h"
 #include "algorithms/bintree/frame_builder.h"
 #include "algorithms/bintree/sweep.h"
+#include "algorithms/mutant.h"
 #include "algorithms/registry.h"
 
 namespace plumbline {
@@ -90,7 +91,7 @@ void RestrictedQuadtree::prepare(const Terrain& terrain) {
   made->vertices.resize(made->order.size());
   bintree::sweep_bottom_up(made->grid, [&](const bintree::SweepNode& s) {
     double error_m = std::fabs(z[s.node] - (z[s.left] + z[s.right]) / 2);
-    for (int c = 0; c < s.child_count; ++c) {
+    for (int c = 0; c < s.child_count && !PLUMBLINE_MUTANT(rq_error_not_maxed); ++c) {
       error_m = std::max(error_m, errors_m[s.children[static_cast<std::size_t>(c)]]);
     }
     errors_m[s.node] = error_m;
@@ -160,7 +161,7 @@ void RestrictedQuadtree::select(const RightTriangle& triangle, int level) {
   const double reach_m = v.error_m * px_ratio_;  // up to this distance the error is above τ
   if (reach_m > distance_m) enable(node, level);
   // All vertices below have at most this error and stand inside the ball.
-  if (reach_m <= distance_m - v.radius_m) return;
+  if (reach_m <= distance_m - (PLUMBLINE_MUTANT(rq_ball_forgotten) ? 0 : v.radius_m)) return;
   select(triangle.left_half(node), level + 1);
   select(triangle.right_half(node), level + 1);
 }
@@ -176,6 +177,7 @@ void RestrictedQuadtree::enable(GridPoint node, int level) {
     pending_.pop_back();
     for (const GridPoint parent : prepared_->grid.parents(next)) {
       if (newly(parent, next_level - 1)) pending_.emplace_back(parent, next_level - 1);
+      if (PLUMBLINE_MUTANT(rq_second_parent_forgotten)) break;
     }
   }
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::ring_tin {
 namespace {
 
@@ -111,6 +113,7 @@ double CollapseMap::directed_error_m(std::uint32_t from, std::uint32_t to) {
     if (corner.triangle >= chosen || !contains(at[to], p, q, gone)) continue;
     chosen = corner.triangle;
     error = std::abs(plane_height_m(at[to], p, q, gone) - gone.z);
+    if (PLUMBLINE_MUTANT(m2_error_halved)) error /= 2;
   }
   return error;
 }
@@ -119,10 +122,11 @@ double CollapseMap::price(std::uint32_t edge) {
   const auto& ends = adjacency_.edges()[edge];
   const std::uint32_t u = rep_[ends[0]];
   const std::uint32_t v = rep_[ends[1]];
+  if (PLUMBLINE_MUTANT(m2_stale_price) && clock_ > 1) return error_m_[edge];
   if (priced_at_[edge] < std::max(changed_at_[u], changed_at_[v])) {
     const double forth = directed_error_m(u, v);
     const double back = directed_error_m(v, u);
-    turned_[edge] = back < forth ? 1 : 0;
+    turned_[edge] = (back < forth) != PLUMBLINE_MUTANT(m2_wrong_end_collapses) ? 1 : 0;
     error_m_[edge] = std::min(forth, back);
     priced_at_[edge] = clock_;
   }
@@ -180,17 +184,23 @@ CollapseMap::Refusal CollapseMap::refusal(std::uint32_t edge, bool guard) {
   const std::uint32_t to = end(edge);
   star(from, star_);
   for (const Corner& corner : star_) {
+    if (PLUMBLINE_MUTANT(m2_border_collapses)) break;
     if (adjacency_.is_border_vertex(from) || adjacency_.joined_on_border(corner.next, corner.after)) {
       return Refusal::border;
     }
   }
-  if (std::max(depth_[from], depth_[to]) + 1 > depth_cap_) return Refusal::depth;
+  if (std::max(depth_[from], depth_[to]) + (PLUMBLINE_MUTANT(m2_depth_cap_off_by_one) ? 0 : 1) > depth_cap_) {
+    return Refusal::depth;
+  }
   if (on_road_[from] != 0 && (road_fixed_[from] != 0 || !on_road(from, to))) return Refusal::road;
   if (guard) {
     const std::vector<Vec3>& at = tin_.mesh.positions;
     for (const Corner& corner : star_) {
       if (corner.next == to || corner.after == to) continue;
-      if (tin::plan_orientation(at[to], at[corner.next], at[corner.after]) <= 0) return Refusal::fold;
+      if (tin::plan_orientation(at[to], at[corner.next], at[corner.after]) <=
+          (PLUMBLINE_MUTANT(m2_guard_lets_flat_through) ? -1 : 0)) {
+        return Refusal::fold;
+      }
     }
   }
   return Refusal::none;
@@ -207,7 +217,9 @@ void CollapseMap::collapse(std::uint32_t edge) {
   }
   mark_changed(to);
   depth_[to] = static_cast<std::uint8_t>(1 + std::max(depth_[from], depth_[to]));
-  for_each_member(from, [&](std::uint32_t member) { rep_[member] = to; });
+  for_each_member(from, [&](std::uint32_t member) {
+    if (!PLUMBLINE_MUTANT(m2_members_left_behind) || member == from) rep_[member] = to;
+  });
   std::swap(next_member_[from], next_member_[to]);  // joins two ring lists
   removed_by_[from] = edge;
   refresh(to);
@@ -222,7 +234,7 @@ void CollapseMap::reset_tree(std::uint32_t v, std::vector<std::uint32_t>& restor
     const std::uint32_t member = restored[k];
     rep_[member] = member;
     next_member_[member] = member;
-    depth_[member] = 1;
+    if (!PLUMBLINE_MUTANT(m2_depth_stale)) depth_[member] = 1;
     removed_by_[member] = kNone;
   }
   for (std::size_t k = first; k < restored.size(); ++k) {

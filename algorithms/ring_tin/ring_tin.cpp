@@ -18,6 +18,8 @@
 #include <queue>
 #include <utility>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::ring_tin {
 
 RingTin::Flight::Flight(const PreparedTin& prepared, int depth_cap)
@@ -48,7 +50,10 @@ void RingTin::adopt(std::shared_ptr<const PreparedTin> prepared) {
   reset();
 }
 
-void RingTin::reset() { flight_ = std::make_unique<Flight>(*prepared_, settings_.depth_cap); }
+void RingTin::reset() {
+  if (PLUMBLINE_MUTANT(m2_reset_forgotten) && flight_) return;
+  flight_ = std::make_unique<Flight>(*prepared_, settings_.depth_cap);
+}
 
 std::unique_ptr<LodMethod> RingTin::clone() const {
   auto copy = std::make_unique<RingTin>(settings_);
@@ -67,7 +72,8 @@ void RingTin::update(const Camera& camera, LodFrame& frame) {
   const double focal_px = settings_.focal_px > 0 ? settings_.focal_px : camera.kappa_px;
   std::vector<double> tolerances_m;
   for (int i = 0; i < rings.levels(); ++i) {
-    tolerances_m.push_back(rings.tolerance_m(i, threshold_px(), focal_px));
+    const int ring = PLUMBLINE_MUTANT(m2_tolerance_of_next_ring) ? std::min(i + 1, rings.levels() - 1) : i;
+    tolerances_m.push_back(rings.tolerance_m(ring, threshold_px(), focal_px));
   }
   // Before the first frame every vertex is at level 0: nothing there ever collapsed.
   const bool all_anew = !f.tolerances_m.empty() && (f.tolerances_m != tolerances_m || f.rings != rings);
@@ -93,10 +99,14 @@ void RingTin::update(const Camera& camera, LodFrame& frame) {
   for (const std::uint32_t v : touched) {
     if (asks_reset(v)) f.map.reset_tree(v, restored);
   }
-  if (settings_.variant == Variant::guarded) f.map.mend_folds(restored);
+  if (settings_.variant == Variant::guarded && !PLUMBLINE_MUTANT(m2_folds_not_mended)) {
+    f.map.mend_folds(restored);
+  }
   f.statistics.vertices_reset = restored.size();
   f.statistics.trees_reset = f.map.take_trees_reset();
-  touched.insert(touched.end(), restored.begin(), restored.end());
+  if (!PLUMBLINE_MUTANT(m2_restored_not_simplified)) {
+    touched.insert(touched.end(), restored.begin(), restored.end());
+  }
 
   // §3.1 for what changed.
   for (const std::uint32_t v : touched) f.touched[v] = 1;
@@ -119,7 +129,7 @@ void RingTin::update(const Camera& camera, LodFrame& frame) {
 bool RingTin::asks_reset(std::uint32_t v) const {
   const Flight& f = *flight_;
   const std::uint32_t edge = f.map.removed_by(v);
-  if (edge == CollapseMap::kNone) return false;
+  if (edge == CollapseMap::kNone || PLUMBLINE_MUTANT(m2_trees_never_reset)) return false;
   if (!(f.map.error_m(edge) > f.tolerances_m[static_cast<std::size_t>(f.levels.level(v))])) return false;
   if (!settings_.leave_whole_trees) return true;
   std::vector<std::uint32_t> tree;
@@ -134,6 +144,7 @@ bool RingTin::try_collapse(std::uint32_t edge) {
   Flight& f = *flight_;
   const double error_m = f.map.price(edge);
   const auto level = static_cast<std::size_t>(f.levels.level(f.map.start(edge)));
+  if (PLUMBLINE_MUTANT(m2_single_level)) return false;
   if (!(error_m < f.tolerances_m[level])) return false;
   const CollapseMap::Refusal refusal = f.map.refusal(edge, settings_.variant == Variant::guarded);
   f.statistics.qualifying += refusal != CollapseMap::Refusal::border ? 1 : 0;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::ring_tin {
 namespace {
 
@@ -79,7 +81,7 @@ std::uint64_t VertexLevels::move(Vec2 viewpoint, const Rings& rings, std::vector
     const Span span = distances(viewpoint, cell.low, cell.high);
     const int level = rings.level_at(span.nearest);
     const auto uniform = level == rings.level_at(span.farthest) ? static_cast<std::int16_t>(level) : kMixed;
-    if (uniform != kMixed && uniform == uniform_[c]) continue;
+    if ((uniform != kMixed || PLUMBLINE_MUTANT(m2_mixed_cells_stale)) && uniform == uniform_[c]) continue;
     uniform_[c] = uniform;
     for (std::uint32_t k = cell.first; k < cell.end; ++k) {
       const std::uint32_t v = cells_.vertices[k];

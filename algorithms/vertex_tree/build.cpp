@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "algorithms/mutant.h"
 #include "algorithms/vertex_tree/stars.h"
 #include "algorithms/vertex_tree/vertex_tree.h"
 #include "scenarios/error.h"
@@ -70,7 +71,8 @@ class Builder {
       const auto [length2, a, b] = queue_.top();
       queue_.pop();
       if (tree_.parent[a] != kNone || tree_.parent[b] != kNone) continue;
-      const Vec3 p = (tree_.positions[a] + tree_.positions[b]) * 0.5;
+      Vec3 p = (tree_.positions[a] + tree_.positions[b]) * 0.5;
+      if (PLUMBLINE_MUTANT(m5_stale_height)) p.z = tree_.positions[a].z;
       if (safe(a, b, p)) {
         collapse(a, b, p);
       } else {
@@ -131,6 +133,7 @@ class Builder {
       if (l > 0) cone.cos_half = std::min(cone.cos_half, dot(cone.axis, n) / l);
     }
     for (const auto* child : {a, b}) {
+      if (PLUMBLINE_MUTANT(m5_cone_without_children)) break;
       if (child != nullptr) cone.cos_half = std::min(cone.cos_half, cos_reaching(cone.axis, *child));
     }
     return cone;
@@ -184,16 +187,20 @@ class Builder {
       const Vec3 before = cross(pu - pv, pw - pv), after = cross(pu - p, pw - p);
       const double area2 = length(after);
       const double sides = dot(pu - p, pu - p) + dot(pw - p, pw - p) + dot(pu - pw, pu - pw);
-      if (!(2 * kSqrt3 * area2 > settings_.least_quality * sides)) return false;
+      if (!(2 * kSqrt3 * area2 > settings_.least_quality * sides) &&
+          !PLUMBLINE_MUTANT(m5_quality_limit_dropped)) {
+        return false;
+      }
       // A triangle without area has no normal to turn.
       const double was = length(before);
+      if (PLUMBLINE_MUTANT(m5_normal_limit_dropped)) continue;
       if (was > 0 && !(dot(before, after) > cos_limit_ * was * area2)) return false;
     }
     return true;
   }
 
   bool safe(std::uint32_t a, std::uint32_t b, Vec3 p) {
-    if (lines_[a] != lines_[b]) return false;
+    if (lines_[a] != lines_[b] && !PLUMBLINE_MUTANT(m5_border_lines_forgotten)) return false;
     return keeps_shape(a, b, p) && keeps_shape(b, a, p) && keeps_manifold(a, b);
   }
 
@@ -247,7 +254,9 @@ class Builder {
     for (const auto c : ring_) {
       mark_[c] = 0;
       push(p, c);
-      radius = std::max(radius, length(tree_.positions[c] - position));
+      if (!PLUMBLINE_MUTANT(m5_ball_without_ring)) {
+        radius = std::max(radius, length(tree_.positions[c] - position));
+      }
       for (const auto other : refused_[c]) {
         if (tree_.parent[other] != kNone) continue;
         auto& back = refused_[other];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/vertex_tree/cut.h"
 
+#include "algorithms/mutant.h"
 #include "algorithms/vertex_tree/stars.h"
 
 namespace plumbline::vertex_tree {
@@ -31,7 +32,7 @@ void Cut::look_around(std::uint32_t v) {
     for (const auto u : now_[t]) {
       if (u == v) continue;
       greatest = std::max(greatest, u);
-      if (u != partner) least = std::min(least, tree_->parent[u]);
+      if (u != partner || PLUMBLINE_MUTANT(m5_single_level)) least = std::min(least, tree_->parent[u]);
     }
   }
   greatest_[v] = greatest;
@@ -83,6 +84,7 @@ void Cut::split(std::uint32_t p) {
   present_[p] = 0;
   for (const auto t : gone) {
     if (t == kNone) continue;
+    if (PLUMBLINE_MUTANT(m5_second_triangle_lost) && t == gone[1]) continue;
     live_[t] = 1;
     ++live_count_;
     for (const auto c : now_[t]) {
@@ -108,7 +110,7 @@ std::size_t Cut::force_split(std::uint32_t p) {
   std::vector<std::uint32_t> chain{p};
   while (!chain.empty()) {
     const std::uint32_t v = chain.back();
-    if (may_split(v)) {
+    if (may_split(v) || PLUMBLINE_MUTANT(m5_split_not_forced)) {
       split(v);
       ++splits;
       chain.pop_back();
@@ -124,7 +126,10 @@ std::size_t Cut::coarsen(std::size_t triangles, const std::function<bool(std::ui
   std::size_t collapses = 0;
   for (auto p = static_cast<std::uint32_t>(tree_->originals); p < tree_->nodes(); ++p) {
     if (live_count_ <= triangles) break;
-    if (!may_collapse(p) || (held && held(p))) continue;
+    const auto& [a, b] = tree_->children[p - tree_->originals];
+    const bool may =
+        PLUMBLINE_MUTANT(m5_identifier_test_missing) ? present_[a] && present_[b] : may_collapse(p);
+    if (!may || (held && held(p))) continue;
     collapse(p);
     ++collapses;
   }
@@ -136,7 +141,7 @@ std::size_t Cut::refine(std::size_t triangles) {
   for (auto p = static_cast<std::uint32_t>(tree_->nodes()); p-- > tree_->originals;) {
     if (!present_[p]) continue;
     const std::size_t more = tree_->removed[p - tree_->originals][1] == kNone ? 1 : 2;
-    if (live_count_ + more > triangles) break;
+    if (live_count_ + more > triangles + (PLUMBLINE_MUTANT(m5_refines_too_far) ? 8 : 0)) break;
     split(p);
     ++splits;
   }

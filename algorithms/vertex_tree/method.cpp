@@ -7,11 +7,14 @@
 #include <limits>
 #include <utility>
 
+#include "algorithms/mutant.h"
+
 namespace plumbline::vertex_tree {
 
 double screen_size_px(const Camera& camera, Vec3 center, double radius_m) {
   const Vec3 to = center - camera.position;
   const double free2 = dot(to, to) - radius_m * radius_m;
+  if (PLUMBLINE_MUTANT(m5_distance_squared)) return 2 * camera.kappa_px * radius_m / std::max(free2, 1.0);
   if (!(free2 > 0)) return std::numeric_limits<double>::infinity();
   return 2 * camera.kappa_px * radius_m / std::sqrt(free2);
 }
@@ -20,7 +23,7 @@ std::size_t ladder_triangles(double size_px, double scale, std::size_t full) {
   static constexpr std::array<std::pair<double, std::size_t>, 5> kRungs{
       {{300, 100}, {250, 80}, {200, 60}, {150, 40}, {100, 20}}};
   for (const auto& [rung_px, percent] : kRungs) {
-    if (size_px > rung_px * scale) return full * percent / 100;
+    if (size_px > rung_px * (PLUMBLINE_MUTANT(m5_threshold_ignored) ? 1 : scale)) return full * percent / 100;
   }
   return full / 10;
 }
@@ -35,6 +38,9 @@ bool may_be_contour(const VertexTree& tree, std::uint32_t p, Vec3 eye) {
   const double sin_half = std::sqrt(std::max(0.0, 1 - cone.cos_half * cone.cos_half));
   // The axes stand within (half angle + view's half angle) of a right angle.
   if (cone.cos_half * cos_view - sin_half * sin_view <= 0) return true;  // that sum reaches 90 degrees
+  if (PLUMBLINE_MUTANT(m5_contour_inverted)) {
+    return std::fabs(dot(cone.axis, to)) > (sin_half * cos_view + cone.cos_half * sin_view) * distance;
+  }
   return std::fabs(dot(cone.axis, to)) <= (sin_half * cos_view + cone.cos_half * sin_view) * distance;
 }
 
@@ -62,7 +68,7 @@ void Object::update(const Camera& camera, double scale, Counters& counters) {
   }
   // Where nodes were held, the last collapse may have taken two triangles where one was left to take, and an
   // earlier one may be undone within the target: now, or the next frame would.
-  counters.split += cut_.refine(target);
+  if (!PLUMBLINE_MUTANT(m5_refine_forgotten)) counters.split += cut_.refine(target);
 }
 
 void VertexTreeMethod::prepare(const Terrain& terrain) {
@@ -89,6 +95,7 @@ void VertexTreeMethod::prepare_objects(const std::vector<Mesh>& objects) {
 }
 
 void VertexTreeMethod::reset() {
+  if (PLUMBLINE_MUTANT(m5_reset_forgotten) && !objects_.empty()) return;
   objects_.clear();
   for (const auto& tree : trees_) objects_.emplace_back(tree, settings_.contour);
 }
@@ -111,7 +118,7 @@ void VertexTreeMethod::update(const Camera& camera, LodFrame& frame) {
 
 std::unique_ptr<LodMethod> VertexTreeMethod::clone() const {
   auto copy = std::make_unique<VertexTreeMethod>(*this);
-  copy->reset();
+  if (!PLUMBLINE_MUTANT(m5_clone_shares_state)) copy->reset();
   return copy;
 }
 

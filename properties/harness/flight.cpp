@@ -179,6 +179,10 @@ verdict::FrameVerdict Flight::next(const FrameScene& scene) {
 
   const oracle::PixelHits hits = judged.surface->look(camera);
   out.image = judge_image(scene, *judged.surface, hits);
+  const bool of_mesh = stage_.subject == Subject::mesh;
+  const std::size_t judged_px = of_mesh ? out.image.depth_rel.count + out.image.silhouette_pixels
+                                        : out.image.displacement_px.count + out.image.uncovered_px;
+  out.nothing_judged = judged_px == 0 ? 1 : 0;
   if (!first) {
     const Judged& earlier = unchanged ? judged : *judged_before_;
     out.pop_px = jump(camera, *judged.surface, hits, *earlier.surface);
@@ -190,6 +194,15 @@ verdict::FrameVerdict Flight::next(const FrameScene& scene) {
     if (!is_crack(finding) || finding.visibility != oracle::Visibility::visible) continue;
     ++out.visible_cracks;
     out.largest_gap_px = std::max(out.largest_gap_px, finding.gap_px);
+  }
+  if (out.nothing_judged > 0) {
+    oracle::Finding nothing;
+    nothing.code = oracle::FindingCode::nothing_judged;
+    nothing.kind = "no_pixel";
+    nothing.at = camera.position;
+    nothing.severity = oracle::Severity::hazard;
+    nothing.visibility = oracle::Visibility::outside;
+    out.findings.push_back(std::move(nothing));
   }
   keep_worst(out.findings);
 

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Law M4.C2: for every terrain and every split node, e(parent) ≥ q·e(child). Source: METHODS M4, split
-// function (the paper's equation 10).
+// Law M4.C2: for every terrain and every split node, e(parent) ≥ q·e(child), and e is no less than the node's
+// own deviation. Source: METHODS M4, split function (the paper's equation 10).
+
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -25,6 +28,23 @@ block_bintree::SplitFunction split_function_of(const LawInput& input) {
   return bintree->split_function();  // a copy; the method goes, the terrain is the input's
 }
 
+namespace {
+
+/// δ of equation 1, metres, from the heights: the larger distance of a node from the middles of its diamond's
+/// diagonals.
+double deviation_m(const block_bintree::SplitFunction& function, GridPoint node) {
+  const bintree::Diamond diamond = function.grid().diamond(node);
+  const double z = function.point(node).z;
+  const auto off = [&](GridPoint a, GridPoint b) {
+    return std::fabs(z - (function.point(a).z + function.point(b).z) / 2);
+  };
+  const double along = off(diamond.left, diamond.right);
+  if (diamond.apexes.count < 2) return along;
+  return std::max(along, off(diamond.apexes.points[0], diamond.apexes.points[1]));
+}
+
+}  // namespace
+
 LawOutcome check_error_is_monotone(const block_bintree::SplitFunction& function, double q) {
   const bintree::ClusterGrid& grid = function.grid();
   bool exercised = false;
@@ -32,6 +52,13 @@ LawOutcome check_error_is_monotone(const block_bintree::SplitFunction& function,
     for (int i = 0; i < grid.columns(); ++i) {
       const GridPoint child{i, j};
       if (!grid.is_split_node(child)) continue;
+      if (function.e_m(child) < deviation_m(function, child)) {
+        oracle::Finding finding = law_finding("error_below_deviation", function.point(child));
+        finding.gap_m = deviation_m(function, child) - function.e_m(child);
+        return violated(fmt::format("node ({}, {}) has e = {} m, but stands {} m off (equation 1)", i, j,
+                                    function.e_m(child), deviation_m(function, child)),
+                        std::move(finding));
+      }
       const double needed_m = q * function.e_m(child);
       for (const GridPoint parent : grid.parents(child)) {
         exercised = exercised || needed_m > 0;
@@ -50,14 +77,18 @@ LawOutcome check_error_is_monotone(const block_bintree::SplitFunction& function,
 
 Law law_error_is_monotone() {
   return {.id = "M4_C2_error_is_monotone",
-          .statement = "for every terrain and split node, e(parent) >= q * e(child)",
+          .statement =
+              "for every terrain and split node, e(parent) >= q * e(child), and e is no less than the node's "
+              "deviation",
           .source = "METHODS M4.C2",
           .applies = [](const MethodChoice& choice) { return choice.method->id == "block_bintree"; },
           .promised = [](const MethodChoice&) { return true; },
           .check =
               [](const LawInput& input) {
                 const block_bintree::SplitFunction function = split_function_of(input);
-                return check_error_is_monotone(function, function.constants().saturation);
+                // The paper's q (equation 10) at least, whatever the method took for it.
+                const auto& [depth_ratio, saturation] = function.constants();
+                return check_error_is_monotone(function, std::max(saturation, 1 + depth_ratio / 2));
               }};
 }
 

@@ -310,11 +310,27 @@ const std::vector<std::string>& threshold_classes() {
   return classes;
 }
 
+namespace {
+
+/// Several patches, for the methods that sew patches together. Drawn on its own, so that no other draw moves.
+void draw_patches(const rc::Random& random, LawInput& input) {
+  const MethodDescription& method = *find_method(input.method).method;
+  if (!has_option(method, "patch_size") || input.options.contains("patch_size")) return;
+  Draw draw(random);
+  const int side = draw.one_of<int>({2, 4, 8});
+  const int cells = std::min(input.terrain.columns, input.terrain.rows) - 1;
+  if (2 * side <= cells && draw.chance(35)) input.options["patch_size"] = double{1} * side;
+}
+
+}  // namespace
+
 DrawnCase draw_case(const std::string& method, std::uint64_t seed, std::uint64_t index) {
   // Method, seed and index are the key itself, so that case k does not depend on the cases before it.
   std::uint64_t name = 0xcbf29ce484222325;  // FNV-1a
   for (const char c : method) name = (name ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return draw_whole_case(method, rc::Random(rc::Random::Key{seed, index, name, 0}));
+  DrawnCase drawn = draw_whole_case(method, rc::Random(rc::Random::Key{seed, index, name, 0}));
+  draw_patches(rc::Random(rc::Random::Key{seed, index, name, 1}), drawn.input);
+  return drawn;
 }
 
 }  // namespace plumbline::properties

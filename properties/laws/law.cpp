@@ -39,6 +39,23 @@ const std::vector<Law>& all_laws() {
       law_symmetric(),
       law_screen_error_within_tau(),
       law_continuous_in_camera(),
+      law_covers_picture(),
+      law_starts_afresh(),
+      law_lifting_keeps_topology(),
+      law_threshold_is_in_pixels(),
+      law_vertices_are_samples(),
+      law_haar_nodes_are_means(),
+      law_haar_morphs_by_error(),
+      law_restricted_selects(),
+      law_haar_walk_is_collapsed_grid(),
+      law_haar_cut_settles_within_tau(),
+      law_ring_prices_are_distances(),
+      law_ring_collapses_within_tolerance(),
+      law_isolated_error_is_conservative(),
+      law_vertex_tree_is_as_built(),
+      law_vertex_tree_keeps_neighbourhoods(),
+      law_vertex_tree_holds_contour(),
+      law_vertex_tree_meets_ladder(),
   };
   return laws;
 }

@@ -3,6 +3,8 @@
 
 // Law: for every terrain, flight and threshold, no point of the picture is displaced by more than τ. Source:
 // METHODS M1.C5, M3.C3; ORACLES O3 (displacement_px), against the samples that the method says it represents.
+// And law covers_picture, which is judged on the same picture: no pixel that shows terrain is without a mesh
+// over it.
 
 #include <algorithm>
 #include <cmath>
@@ -47,20 +49,60 @@ Camera smaller(const LawInput& input) {
                      side(input.height_px));
 }
 
-LawOutcome check(const LawInput& input) {
+/// What the judged camera sees of the samples and of the mesh.
+struct Picture {
+  LodFrame frame;
+  Camera camera;
+  double scale = 1;  ///< pixels of the picture asked for in one of the judged
+  oracle::PixelHits reference_hits;
+  std::unique_ptr<oracle::RaySurface> mesh;
+  oracle::ImageError error;
+  oracle::ImageMaps maps;
+};
+std::unique_ptr<Picture> look(const LawInput& input) {
+  auto out = std::make_unique<Picture>();
   const std::unique_ptr<LodMethod> method = prepared_method(input);
-  const LodFrame frame = fly(*method, cameras(input));
-  if (frame.mesh.triangles.empty()) return vacuous("nothing was drawn");
+  out->frame = fly(*method, cameras(input));
+  if (out->frame.mesh.triangles.empty()) return out;
   static thread_local const oracle::RayDevice device;
   const Mesh full = reference_mesh(represented(input.terrain, method->reference(input.terrain)));
   const oracle::RaySurface reference(device, full);
-  const oracle::RaySurface mesh(device, frame.mesh);
-  const Camera camera = smaller(input);
-  const double scale = judged_camera(input).kappa_px / camera.kappa_px;
-  const oracle::PixelHits reference_hits = reference.look(camera);
-  oracle::ImageMaps maps;
-  const oracle::ImageError error = oracle::image_error(camera, reference, reference_hits, mesh,
-                                                       mesh.look(camera), input.threshold_px / scale, &maps);
+  out->mesh = std::make_unique<oracle::RaySurface>(device, out->frame.mesh);
+  out->camera = smaller(input);
+  out->scale = judged_camera(input).kappa_px / out->camera.kappa_px;
+  out->reference_hits = reference.look(out->camera);
+  out->error = oracle::image_error(out->camera, reference, out->reference_hits, *out->mesh,
+                                   out->mesh->look(out->camera), input.threshold_px / out->scale, &out->maps);
+  return out;
+}
+
+LawOutcome check_covers(const LawInput& input) {
+  const std::unique_ptr<Picture> picture = look(input);
+  const std::size_t judged = picture->error.displacement_px.count;
+  if (const std::size_t bare = picture->error.uncovered_px; bare > 0) {
+    oracle::Finding finding = law_finding("uncovered", input.poses.back().position);
+    finding.code = oracle::FindingCode::uncovered;
+    return violated(
+        fmt::format("{} of {} pixels that show terrain have no mesh over it", bare, bare + judged),
+        std::move(finding));
+  }
+  if (picture->frame.mesh.triangles.empty()) {
+    const Mesh full = reference_mesh(input.terrain);
+    for (const Vec3& p : full.positions) {
+      if (!judged_camera(input).sees(p)) continue;
+      oracle::Finding finding = law_finding("uncovered", p);
+      finding.code = oracle::FindingCode::uncovered;
+      return violated(fmt::format("nothing is drawn, with sample ({}, {}, {}) in the picture", p.x, p.y, p.z),
+                      std::move(finding));
+    }
+  }
+  return judged == 0 ? vacuous("no pixel shows terrain") : held();
+}
+
+LawOutcome check(const LawInput& input) {
+  const std::unique_ptr<Picture> picture = look(input);
+  const auto& [frame, camera, scale, reference_hits, mesh, error, maps] = *picture;
+  if (frame.mesh.triangles.empty()) return vacuous("nothing was drawn");
   if (error.displacement_px.count == 0) return vacuous("no pixel shows terrain under the mesh");
   const double displaced_px = error.displacement_px.max * scale;
   const double picture_px = std::max(input.width_px, input.height_px);
@@ -86,7 +128,7 @@ LawOutcome check(const LawInput& input) {
   oracle::Finding finding = law_finding("displaced", at);
   finding.code = oracle::FindingCode::error_over_threshold;
   finding.gap_px = displaced_px;
-  if (const auto z = mesh.height_at({at.x, at.y})) finding.gap_m = *z - at.z;
+  if (const auto z = mesh->height_at({at.x, at.y})) finding.gap_m = *z - at.z;
   const long over = std::lround(error.over_threshold * static_cast<double>(error.displacement_px.count));
   std::string what = fmt::format(
       "displaced by {:.6g} px = {:.4g} tau at ({:.6g}, {:.6g}, {:.6g}), {:.6g} m of height; {} of {} pixels "
@@ -108,6 +150,18 @@ Law law_screen_error_within_tau() {
           .promised =
               [](const MethodChoice& choice) { return choice.promises(Promise::screen_error_within_tau); },
           .check = check};
+}
+
+Law law_covers_picture() {
+  return {
+      .id = "covers_picture",
+      .statement =
+          "for every terrain, flight and threshold, no pixel that shows terrain is without a mesh over it",
+      .source = "ORACLES O3 (uncovered)",
+      .applies = [](const MethodChoice&) { return true; },
+      // A method may leave out what is out of sight from the domain that it promises; no other.
+      .promised = [](const MethodChoice& choice) { return choice.promises(Promise::covers_domain); },
+      .check = check_covers};
 }
 
 }  // namespace plumbline::properties

@@ -49,7 +49,8 @@ bool is_threshold_blind(const LawInput& input);
 /// Whether the method promises to ignore the camera.
 bool is_camera_blind(const LawInput& input);
 
-// Each law's maker, defined in the file named after the law.
+// Each law's maker, defined in the file named after the law; laws of one method alone in that method's
+// (m1_laws.cpp, …), covers_picture with screen_error_within_tau, which looks at the same picture.
 Law law_conforming();
 Law law_covers_domain();
 Law law_error_is_monotone();
@@ -62,5 +63,22 @@ Law law_scaling_keeps_topology();
 Law law_symmetric();
 Law law_screen_error_within_tau();
 Law law_continuous_in_camera();
+Law law_covers_picture();
+Law law_starts_afresh();
+Law law_lifting_keeps_topology();
+Law law_threshold_is_in_pixels();
+Law law_vertices_are_samples();
+Law law_haar_nodes_are_means();
+Law law_haar_morphs_by_error();
+Law law_restricted_selects();
+Law law_haar_walk_is_collapsed_grid();
+Law law_haar_cut_settles_within_tau();
+Law law_ring_prices_are_distances();
+Law law_ring_collapses_within_tolerance();
+Law law_isolated_error_is_conservative();
+Law law_vertex_tree_is_as_built();
+Law law_vertex_tree_keeps_neighbourhoods();
+Law law_vertex_tree_holds_contour();
+Law law_vertex_tree_meets_ladder();
 
 }  // namespace plumbline::properties

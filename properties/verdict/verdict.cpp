@@ -265,6 +265,7 @@ constexpr Figure kFigures[] = {
     {"visible_cracks", "count", [](const RunSummary& s) { return static_cast<double>(s.visible_cracks); }},
     {"largest_gap_m", "m", [](const RunSummary& s) { return s.largest_gap_m; }},
     {"largest_gap_px", "px", [](const RunSummary& s) { return s.largest_gap_px; }},
+    {"nothing_judged", "frames", [](const RunSummary& s) { return static_cast<double>(s.nothing_judged); }},
     {"vertical_m.max", "m", vertical<&Vertical::max>},
     {"vertical_m.certain_max", "m", vertical<&Vertical::certain_max>},
     {"vertical_m.rms", "m", vertical<&Vertical::rms>},
@@ -347,6 +348,7 @@ RunSummary summarize(const std::vector<FrameVerdict>& frames) {
     all.visible_cracks += frame.visible_cracks;
     raise(all.largest_gap_m, frame.largest_gap_m);
     raise(all.largest_gap_px, frame.largest_gap_px);
+    all.nothing_judged += frame.nothing_judged;
     add(all.counters, frame.counters);
   }
   all.triangles = triangles / static_cast<double>(frames.size());

@@ -231,6 +231,39 @@ TEST(Vacuous, NothingInThePictureIsAFailure) {
   EXPECT_THAT(find_vacuous({}), testing::ElementsAre(testing::HasSubstr("no run")));
 }
 
+/// A flight that never has the terrain in the picture: every figure of its pictures would be that of nothing.
+TEST(Vacuous, AFlightThatLooksAwayFailsWithFinding110) {
+  Suite suite = small_suite();
+  TrajectorySpec away;
+  away.id = "away";
+  away.kind = "poses";
+  away.poses = {{{480, 480, 9000}, {480, 480, 9100}}, {{480, 480, 9000}, {480, 4800, 9500}}};
+  suite.trajectories = {away};
+  suite.methods = {{"restricted_quadtree", {2}, {}}};
+  suite.gates = {{"nothing_judged", "", "==", 0, false, "nothing_judged == 0"}};
+  const verdict::SuiteVerdict verdict = run_suite(suite, {}).verdict;
+  ASSERT_EQ(verdict.runs.size(), 1u);
+  const verdict::RunVerdict& run = verdict.runs[0];
+  EXPECT_EQ(run.summary.nothing_judged, 2u);
+  for (const verdict::FrameVerdict& frame : run.frames) {
+    EXPECT_GT(frame.triangles, 0u);
+    ASSERT_FALSE(frame.findings.empty());
+    EXPECT_EQ(frame.findings.back().code, oracle::FindingCode::nothing_judged);
+  }
+  ASSERT_EQ(verdict.gates.size(), 1u);
+  EXPECT_FALSE(verdict.gates[0].pass);
+  EXPECT_EQ(verdict.gates[0].value, 2);
+  EXPECT_THAT(verdict.vacuous, testing::Contains(testing::HasSubstr("no pixel")));
+  EXPECT_FALSE(verdict.pass());
+
+  // One frame that sees the terrain is something; the gate still asks for all of them.
+  suite.trajectories[0].poses.push_back({{480, 480, 3000}, {470, 480, 0}});
+  const verdict::SuiteVerdict seen = run_suite(suite, {}).verdict;
+  EXPECT_EQ(seen.runs.at(0).summary.nothing_judged, 2u);
+  EXPECT_THAT(seen.vacuous, testing::Not(testing::Contains(testing::HasSubstr("no pixel"))));
+  EXPECT_FALSE(seen.gates.at(0).pass);
+}
+
 TEST(MeshDump, PlyHoldsTheVeryBits) {
   Mesh mesh;
   mesh.positions = {{0.1, 1e-310, -0.0}, {1, 0, 1e300}, {0, 1, 3}};
