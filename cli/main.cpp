@@ -48,6 +48,7 @@ int run_program(int argc, char** argv) {
   add_replay(program, status);
   add_list(program, status);
   add_tables(program, status);
+  add_selftest(program, status);
 
   std::vector<std::string> commands;
   for (const CLI::App* command : program.get_subcommands({})) commands.push_back(command->get_name());

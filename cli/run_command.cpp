@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "properties/harness/run_suite.h"
+#include "properties/selftest/selftest.h"
 #include "reports/report.h"
 #include "scenarios/whole_file.h"
 
@@ -70,6 +71,9 @@ int run(const RunArguments& arguments) {
     options.progress = [&line](std::size_t done, std::size_t total) { line.show(done, total); };
     outcome = run_suite(suite, options);
   }
+  selftest::Request brief = selftest::brief_request();
+  brief.jobs = arguments.jobs;
+  outcome.verdict.selftest = selftest::run_selftest(brief);
   reports::write_reports(outcome.verdict, outcome.timing, outcome.pictures, out, repeat_line(arguments));
   const bool pass = outcome.verdict.pass();
   if (!arguments.quiet) {

@@ -107,7 +107,15 @@ VerdictWords verdict_in_words(const verdict::SuiteVerdict& verdict) {
   }
   if (verdict.interrupted)
     words.sentences.emplace_back("Interrupted: only the runs that were finished are here.");
-  for (const std::string& why : verdict.vacuous) words.sentences.push_back("Nothing judged (finding 110): " + why);
+  if (!verdict.selftest.kinds.empty() && !verdict.selftest.perfect()) {
+    const verdict::KindScore all = verdict.selftest.total();
+    words.sentences.push_back(fmt::format(
+        "The oracles failed their own test: {} of {} planted findings found, {} misplaced, {} false "
+        "alarms. Believe nothing below.",
+        all.found, all.expected, all.misplaced, all.false_alarms + verdict.selftest.clean_false_alarms));
+  }
+  for (const std::string& why : verdict.vacuous)
+    words.sentences.push_back("Nothing judged (finding 110): " + why);
   for (const MethodDigest& method : methods)
     if (method.conformity.total() > 0) words.sentences.push_back(method_sentence(method));
   return words;

@@ -39,10 +39,15 @@ std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::Suit
 std::string report_html(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing,
                         std::span<const verdict::FramePictures> pictures, const std::string& command);
 
-/// Writes all of the above and images/<run>.{mesh,error,reference}.png into `out`, which is made if missing.
-/// Each file appears whole or not at all, and replaces its namesake; files of other names stay. Throws
-/// InputError ("cannot
-/// write …") when the system refuses.
+/// What `plumbline selftest` prints: the score of each oracle, then of each kind of fault.
+std::string selftest_md(const verdict::SelftestScore& score);
+
+/// The same as JSON, schema "plumbline.selftest/1".
+std::string selftest_json(const verdict::SelftestScore& score);
+
+/// Writes the verdict's files and images/<run>.{mesh,error,reference}.png into `out`, which is made if
+/// missing. Each file appears whole or not at all, and replaces its namesake; files of other names stay.
+/// Throws InputError ("cannot write …") when the system refuses.
 void write_reports(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing,
                    std::span<const verdict::FramePictures> pictures, const std::filesystem::path& out,
                    const std::string& command = {});

@@ -6,6 +6,7 @@
 
 #include "reports/json_text.h"
 #include "reports/report.h"
+#include "reports/selftest_text.h"
 
 namespace plumbline::reports {
 namespace {
@@ -311,6 +312,7 @@ std::string results_json(const verdict::SuiteVerdict& verdict) {
                             {"limit", gate.limit},
                             {"value", gate.value},
                             {"pass", gate.pass}});
+  if (!verdict.selftest.kinds.empty()) out["selftest"] = selftest_object(verdict.selftest);
   return json_text(out, 3);
 }
 

@@ -111,18 +111,29 @@ Score score(const PlantedFault& fault, const oracle::ConformityReport& report) {
   Score result;
   result.planted = fault.expected.size();
   std::vector<bool> taken(report.findings.size());
-  for (const ExpectedFinding& expected : fault.expected) {
+  // First those at their places, then of the rest those of the right kind elsewhere.
+  std::vector<const ExpectedFinding*> missed;
+  const auto take = [&](const ExpectedFinding& expected, bool in_place) {
     for (std::size_t i = 0; i < taken.size(); ++i) {
       const oracle::Finding& finding = report.findings[i];
-      if (taken[i] || finding.code != expected.code || finding.kind != expected.kind ||
-          !contains_all(finding.vertices, expected.vertices) ||
-          !contains_all(finding.triangles, expected.triangles)) {
+      if (taken[i] || finding.code != expected.code || finding.kind != expected.kind) continue;
+      if (in_place && (!contains_all(finding.vertices, expected.vertices) ||
+                       !contains_all(finding.triangles, expected.triangles)))
         continue;
-      }
       taken[i] = true;
-      ++result.found;
-      break;
+      return true;
     }
+    return false;
+  };
+  for (const ExpectedFinding& expected : fault.expected) {
+    if (take(expected, true)) {
+      ++result.found;
+    } else {
+      missed.push_back(&expected);
+    }
+  }
+  for (const ExpectedFinding* expected : missed) {
+    if (take(*expected, false)) ++result.misplaced;
   }
   result.false_alarms = static_cast<std::size_t>(std::count(taken.begin(), taken.end(), false));
   return result;

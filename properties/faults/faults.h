@@ -51,8 +51,9 @@ std::optional<PlantedFault> plant(std::string_view kind, const Mesh& sound, cons
 struct Score {
   std::size_t planted = 0;       ///< findings expected
   std::size_t found = 0;         ///< of those, reported with all their witnesses
+  std::size_t misplaced = 0;     ///< of those, reported, but with other witnesses
   std::size_t false_alarms = 0;  ///< reported findings that nothing was planted for
-  [[nodiscard]] bool perfect() const { return found == planted && false_alarms == 0; }
+  [[nodiscard]] bool perfect() const { return found == planted && misplaced == 0 && false_alarms == 0; }
 };
 Score score(const PlantedFault& fault, const oracle::ConformityReport& report);
 

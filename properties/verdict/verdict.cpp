@@ -388,7 +388,7 @@ double figure_value(const RunSummary& summary, std::string_view path) {
 }
 
 bool SuiteVerdict::pass() const {
-  return !interrupted && vacuous.empty() && !runs.empty() &&
+  return !interrupted && vacuous.empty() && !runs.empty() && (selftest.kinds.empty() || selftest.perfect()) &&
          std::ranges::all_of(gates, [](const GateVerdict& gate) { return gate.pass; });
 }
 

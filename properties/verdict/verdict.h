@@ -15,6 +15,7 @@
 #include "oracle/shape.h"
 #include "oracle/stability.h"
 #include "oracle/vertical.h"
+#include "properties/verdict/selftest_score.h"
 #include "scenarios/camera.h"
 #include "scenarios/raster.h"
 #include "scenarios/trajectory.h"
@@ -210,9 +211,10 @@ struct SuiteVerdict {
   std::vector<GateVerdict> gates;  ///< run order, then gate order
   std::vector<std::string>
       vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
+  SelftestScore selftest;  ///< of the oracles that judged; no kinds: it was not taken
   bool interrupted = false;
-  /// Every gate holds, nothing was vacuous, nothing is missing. A suite without a run has judged nothing: no
-  /// pass.
+  /// Every gate holds, nothing was vacuous, nothing is missing, and the oracles passed their own test. A
+  /// suite without a run has judged nothing: no pass.
   [[nodiscard]] bool pass() const;
 };
 

@@ -93,6 +93,17 @@ export interface Mesh {
   id: string; objects: number; triangles: number; vertices: number; radius_m: number; object_radius_m: number;
 }
 
+/** How the oracles did on planted faults of one kind; `sound`: a harmless twin. */
+export interface KindScore {
+  oracle: string; kind: string; sound: boolean;
+  faults: number; expected: number; found: number; misplaced: number; false_alarms: number;
+}
+
+export interface Selftest {
+  seed: number; pass: boolean; planted: number; expected: number; found: number; misplaced: number;
+  false_alarms: number; clean_meshes: number; clean_false_alarms: number; kinds: KindScore[];
+}
+
 export interface Results {
   suite: string;
   yardstick: string | null;
@@ -105,6 +116,7 @@ export interface Results {
   runs: Run[];
   gates: Gate[];
   vacuous: string[];
+  selftest?: Selftest;
 }
 
 export interface RunTiming {

@@ -11,6 +11,7 @@ import { el, plural, short } from './text';
 import { economySection } from './economy';
 import { stabilitySection } from './stability';
 import { timelineSection } from './timeline';
+import { trustSection } from './trust';
 
 function fact(name: string, ...value: (Node | string)[]): HTMLElement {
   return el('div', {}, el('dt', {}, name), el('dd', {}, ...value));
@@ -67,7 +68,7 @@ const sections = [
   matrixSection(), ...(terrainRuns.length === 0 ? [] : [accuracySection(), economySection()]),
   ...(meshRuns.length === 0 ? [] : [objectsSection()]),
   ...(results.runs.length === 0 ? [] : [stabilitySection(), timelineSection()]), picturesSection(),
-  gatesSection(), findingsSection(), terrainsSection(), definitionsSection(),
+  gatesSection(), findingsSection(), terrainsSection(), trustSection(), definitionsSection(),
 ].filter((part): part is HTMLElement => part !== null);
 
 const contents = el('nav', { 'aria-label': 'Contents' },

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "properties/faults/sound_meshes.h"
+
+namespace plumbline::selftest {
+
+/// Something that makes meshes in plan: a method's frames, or nobody's method.
+struct Subject {
+  std::string name;
+  /// A random mesh; nothing if this frame of a method that does not promise conforming meshes is not sound
+  /// by itself.
+  std::function<std::optional<faults::Surface>(Random&)> make;
+};
+
+/// Foreign meshes first, then every variant in the registry that takes a terrain.
+const std::vector<Subject>& fault_subjects();
+
+/// Small meshes that are sound by construction or by promise, cheap ones far more often than methods' frames.
+faults::Surface clean_mesh(std::size_t number, Random& random);
+
+}  // namespace plumbline::selftest
