@@ -107,7 +107,8 @@ VerdictWords verdict_in_words(const verdict::SuiteVerdict& verdict) {
   }
   if (verdict.interrupted)
     words.sentences.emplace_back("Interrupted: only the runs that were finished are here.");
-  for (const std::string& why : verdict.vacuous) words.sentences.push_back("Nothing judged (finding 110): " + why);
+  for (const std::string& why : verdict.vacuous)
+    words.sentences.push_back("Nothing judged (finding 110): " + why);
   for (const MethodDigest& method : methods)
     if (method.conformity.total() > 0) words.sentences.push_back(method_sentence(method));
   return words;

@@ -37,7 +37,8 @@ std::vector<TestSuite> test_suites(const verdict::SuiteVerdict& verdict) {
   }
   TestSuite whole{verdict.suite, {}};
   for (const std::string& why : verdict.vacuous)
-    whole.cases.push_back({fmt::format("judged something: {}", why), fmt::format("nothing judged (finding 110): {}", why)});
+    whole.cases.push_back(
+        {fmt::format("judged something: {}", why), fmt::format("nothing judged (finding 110): {}", why)});
   if (verdict.runs.empty()) whole.cases.push_back({"has runs", "no run was made"});
   if (verdict.interrupted) whole.cases.push_back({"finished", "interrupted before the last frame"});
   if (!whole.cases.empty()) suites.push_back(std::move(whole));
