@@ -104,8 +104,8 @@ struct FrameVerdict {
   std::size_t visible_cracks = 0;  ///< cracks (with a gap) that show in the picture
   double largest_gap_m = 0;
   double largest_gap_px = 0;  ///< over visible cracks
-  /// 1 if no pixel showed anything to judge (finding 110), else 0. Looking away is no fault of the method, but
-  /// whatever the frame's picture says of it is said of nothing.
+  /// 1 if no pixel showed anything to judge (finding 110), else 0. Looking away is no fault of the method,
+  /// but whatever the frame's picture says of it is said of nothing.
   std::size_t nothing_judged = 0;
   oracle::VerticalError vertical_m;
   oracle::ImageError image;
