@@ -312,6 +312,17 @@ std::string stability(const verdict::SuiteVerdict& verdict) {
   return table.empty() ? std::string() : "\n## Stability\n\n" + table.text();
 }
 
+/// One line: the table is in report.html, and `plumbline selftest` prints a longer one.
+std::string trust(const verdict::SelftestScore& score) {
+  if (score.kinds.empty()) return {};
+  const verdict::KindScore all = score.total();
+  return fmt::format(
+      "\n## Can the oracles be believed?\n\n{}: {} faults planted, {} of {} findings at their places, {} "
+      "misplaced, {} false alarms; {} on {} clean meshes.\n",
+      score.perfect() ? "Yes" : "NO", score.planted(), all.found, all.expected, all.misplaced,
+      all.false_alarms, score.clean_false_alarms, score.clean_meshes);
+}
+
 }  // namespace
 
 std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing) {
@@ -321,7 +332,8 @@ std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::Suit
   if (!words.sentences.empty()) out += '\n';
   for (const std::string& sentence : words.sentences) out += fmt::format("- {}\n", markdown_cell(sentence));
   out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + offenders(verdict) +
-         economy(verdict, timing) + spending(verdict) + objects(verdict, timing) + stability(verdict);
+         economy(verdict, timing) + spending(verdict) + objects(verdict, timing) + stability(verdict) +
+         trust(verdict.selftest);
   return out;
 }
 
