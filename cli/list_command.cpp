@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "oracle/finding.h"
 #include "properties/laws/law.h"
+#include "properties/peers/peer_table.h"
 #include "properties/tables/make_tables.h"
 #include "scenarios/error.h"
 #include "scenarios/nearest.h"
@@ -73,19 +74,23 @@ void list_tables() {
   }
 }
 
+/// Judges nine meshes first, so it is not part of the list of everything.
+void list_peers() { fmt::print("{}", peers::peer_table_markdown()); }
+
 void list(const std::string& what) {
   struct Shelf {
     const char* name;
     void (*print)();
   };
-  static constexpr Shelf kShelves[] = {{"methods", list_methods},           {"terrains", list_terrains},
-                                       {"trajectories", list_trajectories}, {"laws", list_laws},
-                                       {"oracles", list_oracles},           {"tables", list_tables}};
+  static constexpr Shelf kShelves[] = {
+      {"methods", list_methods}, {"terrains", list_terrains}, {"trajectories", list_trajectories},
+      {"laws", list_laws},       {"oracles", list_oracles},   {"tables", list_tables},
+      {"peers", list_peers}};
   std::vector<std::string> names;
   bool found = false;
   for (const Shelf& shelf : kShelves) {
     names.emplace_back(shelf.name);
-    if (what.empty() || what == shelf.name) {
+    if ((what.empty() && shelf.print != list_peers) || what == shelf.name) {
       shelf.print();
       found = true;
     }
@@ -99,7 +104,9 @@ void add_list(CLI::App& program, int& status) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = program.add_subcommand("list", "What there is, one line each");
   command->add_option("what", *what,
-                      "methods, terrains, trajectories, laws, oracles or tables; default: all");
+                      "methods, terrains, trajectories, laws, oracles, tables or peers (the fault table "
+                      "beside CGAL); default: "
+                      "all but peers");
   command->callback([what, &status] {
     list(*what);
     status = kPass;

@@ -31,12 +31,15 @@ const std::vector<FindingDescription>& finding_catalogue() {
        "An oracle or a law had nothing to judge: no frame, no triangle in the picture, a precondition that "
        "never "
        "held. That is a failure, not a pass."},
-      {degenerate, "degenerate",
+      {degenerate,
+       "degenerate",
        "A triangle whose three corners are exactly collinear in plan, or that names a vertex twice "
        "('repeated_index').",
        R"(
     a────────b────────c      triangle a b c
-)"},
+)",
+       {{"collinear", "three different vertices on one line in plan (of an object: no area)"},
+        {"repeated_index", "one vertex named twice"}}},
       {duplicate, "duplicate",
        "A triangle with the same three corners as another, in any order. Only the copy is the finding, and "
        "it is "
@@ -46,7 +49,8 @@ const std::vector<FindingDescription>& finding_catalogue() {
     │ ╲        triangle a b c
     a───b      triangle b c a
 )"},
-      {non_manifold, "non_manifold",
+      {non_manifold,
+       "non_manifold",
        "An edge, by index, with more than two triangles, or with two triangles that run along it in the same "
        "direction. In plan those cover each other, so an overlap stands beside it.",
        R"(
@@ -55,10 +59,14 @@ const std::vector<FindingDescription>& finding_catalogue() {
       a═══╪═══b
        ╲     ╱
           d
-)"},
+)",
+       {{"edge", "of an object: more than two triangles at an edge"},
+        {"orientation", "of an object: two triangles run along an edge the same way"},
+        {"vertex", "of an object: the triangles at a vertex form several fans"}}},
       {unused_vertex, "unused_vertex",
        "A vertex that no triangle names. A hazard: the picture does not show it."},
-      {fold_over, "fold_over",
+      {fold_over,
+       "fold_over",
        "A triangle that runs clockwise in plan: 'reversed' if it would fit its neighbours wound the other "
        "way "
        "round, 'folded' if the surface itself turns over.",
@@ -69,7 +77,9 @@ const std::vector<FindingDescription>& finding_catalogue() {
     a───╳───b
       ╲ │ ╱
         m
-)"},
+)",
+       {{"reversed", "it would fit its neighbours wound the other way round"},
+        {"folded", "the surface itself turns over"}}},
       {t_junction, "t_junction",
        "A vertex in the open interior of another triangle's edge in plan, exactly at the edge's height. A "
        "hazard: "
@@ -81,14 +91,17 @@ const std::vector<FindingDescription>& finding_catalogue() {
      ╲     ╱
         b
 )"},
-      {crack, "crack",
+      {crack,
+       "crack",
        "An open gap: a T-vertex off the edge's height ('t_vertex'; the gap is vertex minus edge), or two "
        "coincident plan edges whose end heights differ ('height_mismatch'; the larger difference).",
        R"(
             v            seen from the side:
          ╱  ↕ gap  ╲     the fine edges a v, v c
     a───────────────c    over the coarse edge a c
-)"},
+)",
+       {{"t_vertex", "a vertex in the interior of an edge in plan, off its height"},
+        {"height_mismatch", "two edges with the same ends in plan, at different heights"}}},
       {hole, "hole",
        "A plan region inside the promised domain that no triangle covers, and that shares no stretch of the "
        "promised outline. Its area and its loop are given.",
@@ -109,7 +122,8 @@ const std::vector<FindingDescription>& finding_catalogue() {
     └─────┼───┘     │
           └─────────┘
 )"},
-      {outline, "outline",
+      {outline,
+       "outline",
        "The covered region ends elsewhere than promised: 'missing' along a stretch of the promised outline, "
        "or "
        "'extra' beyond it; with the area, and the largest distance of the region's corners to the promised "
@@ -122,7 +136,8 @@ const std::vector<FindingDescription>& finding_catalogue() {
     │     ╱╲      ├──╯
     └────╱  ╲─────┘
        missing: the promised side runs straight on
-)"},
+)",
+       {{"missing", "along a stretch of the promised outline"}, {"extra", "beyond it"}}},
       {law_violated, "law_violated", "A law that the method promises does not hold on this input."},
       {error_over_threshold, "error_over_threshold",
        "The measured displacement in the picture is above the threshold that the method was given. A figure "
@@ -135,11 +150,39 @@ const std::vector<FindingDescription>& finding_catalogue() {
   return catalogue;
 }
 
+namespace {
+
+std::string stem(FindingCode code) {
+  return fmt::format("{}_{}", static_cast<int>(code), finding_name(code));
+}
+/// Findings about laws need a method, so their example is a case file; the others' is a mesh.
+std::string_view ending(FindingCode code) {
+  return code == FindingCode::nothing_judged || code == FindingCode::law_violated ? "toml" : "off";
+}
+
+}  // namespace
+
+std::string finding_example(FindingCode code) {
+  return fmt::format("tests/data/findings/{}.{}", stem(code), ending(code));
+}
+
+std::string finding_twin(FindingCode code) {
+  return fmt::format("tests/data/findings/{}_twin.{}", stem(code), ending(code));
+}
+
+std::string finding_image(FindingCode code) { return fmt::format("images/findings/{}.svg", stem(code)); }
+
+std::string finding_section(FindingCode code) {
+  return fmt::format("docs/findings.md#{}-{}", static_cast<int>(code), finding_name(code));
+}
+
 std::string findings_manual() {
   std::string page =
       "# Findings\n\n"
       "This page is written by the program's own catalogue (`oracle/finding.cpp`); a test keeps them "
-      "equal.\n\n"
+      "equal. The\npictures are drawn from the example files: witnesses orange, vertices and places red. "
+      "Each "
+      "example has the\nfinding and no other, its near twin has none; a test judges both.\n\n"
       "Codes are stable: 1xx input, 2xx triangles and edges, 3xx surface, 4xx hierarchy and laws, 5xx "
       "picture. One\n"
       "cause makes one finding: what a lower layer has told, a higher one does not repeat. So a triangle "
@@ -150,6 +193,11 @@ std::string findings_manual() {
       "describe them, and are rounded.\n";
   for (const FindingDescription& entry : finding_catalogue()) {
     page += fmt::format("\n## {} `{}`\n\n{}\n", static_cast<int>(entry.code), entry.name, entry.definition);
+    if (!entry.kinds.empty()) page += '\n';
+    for (const FindingKindDescription& kind : entry.kinds)
+      page += fmt::format("- `{}`: {}.\n", kind.name, kind.meaning);
+    page += fmt::format("\n![{} in its example]({})\n\n[Example](../{}) · [near twin](../{})\n", entry.name,
+                        finding_image(entry.code), finding_example(entry.code), finding_twin(entry.code));
     if (!entry.drawing.empty()) page += fmt::format("\n```text{}```\n", entry.drawing);
   }
   return page;

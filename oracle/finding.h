@@ -35,15 +35,29 @@ enum class FindingCode : int {
   uncovered = 502,
 };
 
+/// What Finding::kind may say, and what it means.
+struct FindingKindDescription {
+  std::string_view name;
+  std::string_view meaning;
+};
 struct FindingDescription {
   FindingCode code;
   std::string_view name;
   std::string_view definition;
   std::string_view drawing = {};  ///< lines of plain text, each ending in a line break; may be empty
+  std::vector<FindingKindDescription> kinds = {};
 };
 /// In the order of the codes.
 const std::vector<FindingDescription>& finding_catalogue();
 std::string_view finding_name(FindingCode code);
+/// A small file that has this finding and no other, and a near twin that has none; paths from the project's
+/// folder. What judges them is said in their comments.
+std::string finding_example(FindingCode code);
+std::string finding_twin(FindingCode code);
+/// The picture of the example (finding_picture.h), a path from docs/.
+std::string finding_image(FindingCode code);
+/// Where the manual page explains it: "docs/findings.md#302-crack".
+std::string finding_section(FindingCode code);
 /// The catalogue as the manual page docs/findings.md (Markdown).
 std::string findings_manual();
 
