@@ -32,7 +32,9 @@ Json selftest_object(const verdict::SelftestScore& score) {
 std::string selftest_json(const verdict::SelftestScore& score) {
   Json out = {{"schema", "plumbline.selftest/1"}};
   out.update(selftest_object(score));
-  out["meshes_from"] = score.mesh_makers;
+  out["makers"] = Json::array();
+  for (const verdict::MakerScore& maker : score.makers)
+    out["makers"].push_back({{"name", maker.name}, {"faults", maker.faults}});
   constexpr int kKindsOnLinesOfTheirOwn = 2;
   return json_text(out, kKindsOnLinesOfTheirOwn);
 }

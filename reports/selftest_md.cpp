@@ -36,10 +36,10 @@ std::string selftest_md(const verdict::SelftestScore& score) {
   for (const verdict::KindScore& kind : score.kinds)
     add_row(kinds, {kind.oracle.substr(0, kind.oracle.find(' ')), kind.kind, markdown_cell(kind.what)}, kind);
   out += "\n" + kinds.text();
-  out += "\nMeshes from: ";
-  for (std::size_t k = 0; k < score.mesh_makers.size(); ++k)
-    out += (k == 0 ? "" : ", ") + score.mesh_makers[k];
-  return out + ".\n";
+  MarkdownTable makers({"O1: meshes of", "planted"}, 1);
+  for (const verdict::MakerScore& maker : score.makers)
+    makers.row({markdown_cell(maker.name), std::to_string(maker.faults)});
+  return out + "\n" + makers.text();
 }
 
 }  // namespace plumbline::reports

@@ -44,6 +44,9 @@ Judges real_judges() {
     for (const auto& frame : flight) watch.next(frame.first, frame.second);
     return watch.most_frames();
   };
+  judges.keys = [](std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
+    return oracle::compare_keys(a, b).differing;
+  };
   judges.shape = oracle::shape;
   judges.soundness = oracle::check_soundness;
   judges.intersections = oracle::self_intersections;

@@ -17,6 +17,7 @@
 #include "oracle/shape.h"
 #include "oracle/stability.h"
 #include "oracle/vertical.h"
+#include "scenarios/random.h"
 
 /// The oracles as functions of plain data: what is put to the test. A test of the test puts blinded ones in
 /// their place.
@@ -50,6 +51,8 @@ struct Judges {
   std::function<std::vector<std::size_t>(std::span<const FrameChange>)> toggles;
   /// For (cut, good) of each frame: the most frames that a cut was followed by before it was good.
   std::function<int(std::span<const std::pair<bool, bool>>)> recovery;
+  /// In how many vertices two meshes differ, by their vertices' keys (sorted).
+  std::function<std::size_t(std::span<const std::uint64_t>, std::span<const std::uint64_t>)> keys;
   std::function<oracle::ShapeReport(const Mesh&)> shape;
   std::function<oracle::ConformityReport(const Mesh&)> soundness;
   std::function<std::optional<std::vector<std::array<std::uint32_t, 2>>>(const Mesh&)> intersections;
@@ -59,5 +62,8 @@ struct Judges {
 
 /// This build's oracles.
 Judges real_judges();
+
+/// Makes closed, sound meshes to plant in, every vertex of which is used.
+using MakeSolid = std::function<Mesh(Random&)>;
 
 }  // namespace plumbline::faults

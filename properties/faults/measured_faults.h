@@ -32,7 +32,7 @@ struct MeasuredFault {
   std::string_view what;
   bool sound = false;  ///< a harmless twin: nothing must be reported
   /// One trial in a random scene; nothing if the scene drawn has no place for it.
-  std::function<std::optional<Tally>(const Judges&, Random&)> trial;
+  std::function<std::optional<Tally>(const Judges&, Random&, const MakeSolid&)> trial;
 };
 
 /// The catalogue, in the order of the oracles.

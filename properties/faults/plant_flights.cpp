@@ -67,16 +67,49 @@ std::optional<Tally> late_recovery(const Judges& judges, Random& random) {
 
 std::optional<Tally> ready_recovery(const Judges& judges, Random& random) { return cuts(judges, random, 0); }
 
+/// The meshes of two flights to one camera: alike but for some vertices, as with hysteresis.
+std::optional<Tally> two_ways(const Judges& judges, Random& random, std::size_t strangers) {
+  std::vector<std::uint64_t> one, other;
+  for (std::uint64_t key = 0; one.size() < 200; key += 1 + random.below(5)) {
+    one.push_back(key);
+    other.push_back(key);
+  }
+  for (std::size_t k = 0; k < strangers; ++k) {
+    auto& keys = random.below(2) == 0 ? one : other;
+    keys.push_back(10'000 + k);
+  }
+  const std::size_t differing = judges.keys(one, other);
+  return tally(strangers == 0, differing > 0, differing == strangers, true, false);
+}
+
+std::optional<Tally> hysteresis(const Judges& judges, Random& random) {
+  return two_ways(judges, random, 1 + random.below(20));
+}
+
+std::optional<Tally> no_hysteresis(const Judges& judges, Random& random) {
+  return two_ways(judges, random, 0);
+}
+
+/// None of these needs a closed mesh.
+template <std::optional<Tally> (*plant)(const Judges&, Random&)>
+std::optional<Tally> trial(const Judges& judges, Random& random, const MakeSolid& /*solid*/) {
+  return plant(judges, random);
+}
+
 }  // namespace
 
 std::vector<MeasuredFault> flight_faults() {
   constexpr auto kOracle = "O5 stability";
   return {
       {kOracle, "vertex_toggles", "a vertex changes twice within ten frames: counted, in that frame", false,
-       toggle},
-      {kOracle, "vertex_changes", "a vertex changes twice, eleven frames apart or more", true, steady_change},
-      {kOracle, "recovers_late", "bad frames after one of three cuts: how many", false, late_recovery},
-      {kOracle, "recovers_at_once", "three cuts, each good at once", true, ready_recovery},
+       trial<toggle>},
+      {kOracle, "vertex_changes", "a vertex changes twice, eleven frames apart or more", true,
+       trial<steady_change>},
+      {kOracle, "recovers_late", "bad frames after one of three cuts: how many", false, trial<late_recovery>},
+      {kOracle, "recovers_at_once", "three cuts, each good at once", true, trial<ready_recovery>},
+      {kOracle, "ways_differ", "two flights to one camera that end in other vertices: how many", false,
+       trial<hysteresis>},
+      {kOracle, "ways_agree", "two flights that end in the same vertices", true, trial<no_hysteresis>},
   };
 }
 

@@ -131,21 +131,27 @@ std::optional<Tally> other_diagonals_of_a_plane(const Judges& judges, Random& ra
   return tally(true, error.max > 0, false, false, error.certain_max > 0);
 }
 
+/// None of these needs a closed mesh.
+template <std::optional<Tally> (*plant)(const Judges&, Random&)>
+std::optional<Tally> trial(const Judges& judges, Random& random, const MakeSolid& /*solid*/) {
+  return plant(judges, random);
+}
+
 }  // namespace
 
 std::vector<MeasuredFault> height_faults() {
   constexpr auto kOracle = "O2 vertical error";
   return {
       {kOracle, "vertex_moved", "an inner vertex up or down by 1/8 to 32 m: max, mean, RMS and place", false,
-       [](const Judges& j, Random& r) { return move_vertex(j, r, false); }},
+       [](const Judges& j, Random& r, const MakeSolid&) { return move_vertex(j, r, false); }},
       {kOracle, "vertex_moved_ulp", "the same, up by one ulp: max and place, to the bit", false,
-       [](const Judges& j, Random& r) { return move_vertex(j, r, true); }},
-      {kOracle, "block_stale", "a rectangle of vertices too high by 1/4 to 8 m", false, stale_block},
+       [](const Judges& j, Random& r, const MakeSolid&) { return move_vertex(j, r, true); }},
+      {kOracle, "block_stale", "a rectangle of vertices too high by 1/4 to 8 m", false, trial<stale_block>},
       {kOracle, "diagonal_swapped", "a cell split the other way: max, but nothing certain", false,
-       other_diagonal},
-      {kOracle, "as_it_is", "the terrain's own surface: exactly 0", true, as_it_is},
+       trial<other_diagonal>},
+      {kOracle, "as_it_is", "the terrain's own surface: exactly 0", true, trial<as_it_is>},
       {kOracle, "plane_split_otherwise", "a plane, its cells split either way: exactly 0", true,
-       other_diagonals_of_a_plane},
+       trial<other_diagonals_of_a_plane>},
   };
 }
 

@@ -16,7 +16,7 @@ namespace {
 using oracle::FindingCode;
 
 /// A vertex put into a triangle, so near its longest edge that one of the three is a sliver in plan.
-std::optional<Tally> sliver(const Judges& judges, Random& random) {
+std::optional<Tally> sliver(const Judges& judges, Random& random, const MakeSolid& /*solid*/) {
   Mesh mesh = random_grid(5 + static_cast<int>(random.below(6)), random).mesh;
   const oracle::ShapeReport before = judges.shape(mesh);
   const std::size_t t = random.below(mesh.triangles.size());
@@ -39,13 +39,9 @@ std::optional<Tally> sliver(const Judges& judges, Random& random) {
   return tally(false, after.slivers > 0, size, true, before.slivers > 0);
 }
 
-std::optional<Tally> no_sliver(const Judges& judges, Random& random) {
+std::optional<Tally> no_sliver(const Judges& judges, Random& random, const MakeSolid& /*solid*/) {
   const Mesh mesh = random_grid(5 + static_cast<int>(random.below(6)), random).mesh;
   return tally(true, judges.shape(mesh).slivers > 0, false, false, false);
-}
-
-Mesh random_pebble(Random& random) {
-  return pebble(3 + static_cast<int>(random.below(4)), random.between(1, 20), random);
 }
 
 /// A defect of a closed mesh, and the finding that it must cause: code, kind, and a witness.
@@ -58,8 +54,8 @@ struct SolidFault {
 
 using PlantSolid = SolidFault (*)(Mesh&, Random&);
 
-std::optional<Tally> unsound(const Judges& judges, Random& random, PlantSolid plant) {
-  Mesh mesh = random_pebble(random);
+std::optional<Tally> unsound(const Judges& judges, Random& random, const MakeSolid& solid, PlantSolid plant) {
+  Mesh mesh = solid(random);
   const SolidFault fault = plant(mesh, random);
   const oracle::ConformityReport report = judges.soundness(mesh);
   std::size_t of_the_code = 0;
@@ -140,16 +136,16 @@ SolidFault repeat_corner(Mesh& mesh, Random& random) {
           1};
 }
 
-std::optional<Tally> sound_solid(const Judges& judges, Random& random) {
-  Mesh mesh = random_pebble(random);
+std::optional<Tally> sound_solid(const Judges& judges, Random& random, const MakeSolid& solid) {
+  Mesh mesh = solid(random);
   if (random.below(2) == 0) mesh.triangles.pop_back();  // open is no fault of a general mesh
   const auto pairs = judges.intersections(mesh);
   return tally(true, !judges.soundness(mesh).clean(), false, false, !pairs || !pairs->empty());
 }
 
 /// A vertex pushed out through the far side: each pair that pierces names a triangle of its star.
-std::optional<Tally> pierced(const Judges& judges, Random& random) {
-  Mesh mesh = random_pebble(random);
+std::optional<Tally> pierced(const Judges& judges, Random& random, const MakeSolid& solid) {
+  Mesh mesh = solid(random);
   const std::uint32_t v = any(mesh.positions.size(), random);
   mesh.positions[v] = mesh.positions[v] * -2;
   const auto pairs = judges.intersections(mesh);
@@ -167,7 +163,7 @@ constexpr double kBoxSide_m = 8;
 constexpr double kWithin_m = 0.01;  ///< of the certified distances asked for
 
 /// The middle of a flat side pulled out by h: the mesh is exactly h away from the box.
-std::optional<Tally> pulled_vertex(const Judges& judges, Random& random) {
+std::optional<Tally> pulled_vertex(const Judges& judges, Random& random, const MakeSolid& /*solid*/) {
   const Mesh reference = box(4, kBoxSide_m);
   Mesh mesh = reference;
   std::vector<std::uint32_t> middles;
@@ -190,8 +186,8 @@ std::optional<Tally> pulled_vertex(const Judges& judges, Random& random) {
                likeness->to_mesh.least_m > pull_m || likeness->turned_share > 0);
 }
 
-std::optional<Tally> same_solid(const Judges& judges, Random& random) {
-  const Mesh mesh = random_pebble(random);
+std::optional<Tally> same_solid(const Judges& judges, Random& random, const MakeSolid& solid) {
+  const Mesh mesh = solid(random);
   const auto likeness = judges.likeness(mesh, mesh, kWithin_m);
   return tally(true, !likeness || likeness->hausdorff().least_m > 0 || likeness->turned_share > 0, false,
                false, false);
@@ -202,8 +198,9 @@ std::optional<Tally> same_solid(const Judges& judges, Random& random) {
 std::vector<MeasuredFault> solid_faults() {
   constexpr auto kShape = "O6 shape", kSolid = "O7 general meshes";
   const auto soundness = [](std::string_view name, std::string_view what, PlantSolid plant) {
-    return MeasuredFault{kSolid, name, what, false, [plant](const Judges& judges, Random& random) {
-                           return unsound(judges, random, plant);
+    return MeasuredFault{kSolid, name, what, false,
+                         [plant](const Judges& judges, Random& random, const MakeSolid& solid) {
+                           return unsound(judges, random, solid, plant);
                          }};
   };
   return {

@@ -51,7 +51,7 @@ Tally measure(const faults::MeasuredFault& fault, std::size_t round, std::uint64
   constexpr int kDraws = 32;
   Random random(seed, fmt::format("{}, round {}", fault.name, round));
   for (int draw = 0; draw < kDraws; ++draw) {
-    if (const auto tally = fault.trial(judges, random)) return *tally;
+    if (const auto tally = fault.trial(judges, random, random_solid)) return *tally;
   }
   return {};
 }
@@ -64,7 +64,7 @@ class Selftest {
       score_.kinds.push_back(entry(kConformity, kind.name, kind.what, kind.sound));
     for (const faults::MeasuredFault& fault : faults::measured_faults())
       score_.kinds.push_back(entry(fault.oracle, fault.name, fault.what, fault.sound));
-    for (const Subject& subject : fault_subjects()) score_.mesh_makers.push_back(subject.name);
+    for (const Subject& subject : fault_subjects()) score_.makers.push_back({subject.name, 0});
   }
 
   verdict::SelftestScore run() {
@@ -119,8 +119,11 @@ class Selftest {
         trials[k] = measure(measured[k], round, request_.seed, judges_);
       }
     });
-    for (const std::vector<Tally>& tallies : planted) {
-      for (std::size_t k = 0; k < tallies.size(); ++k) add(k, tallies[k]);
+    for (std::size_t s = 0; s < planted.size(); ++s) {
+      for (std::size_t k = 0; k < planted[s].size(); ++k) {
+        add(k, planted[s][k]);
+        score_.makers[s].faults += planted[s][k].faults;
+      }
     }
     for (std::size_t k = 0; k < trials.size(); ++k) add(faults::fault_kinds().size() + k, trials[k]);
     progress(score_.planted());

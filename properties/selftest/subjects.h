@@ -22,6 +22,9 @@ struct Subject {
 /// Foreign meshes first, then every variant in the registry that takes a terrain.
 const std::vector<Subject>& fault_subjects();
 
+/// A closed mesh of a general shape: a pebble, or what a method that takes objects draws of it.
+Mesh random_solid(Random& random);
+
 /// Small meshes that are sound by construction or by promise, cheap ones far more often than methods' frames.
 faults::Surface clean_mesh(std::size_t number, Random& random);
 

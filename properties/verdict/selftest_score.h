@@ -23,13 +23,19 @@ struct KindScore {
   [[nodiscard]] bool perfect() const { return found == expected && misplaced == 0 && false_alarms == 0; }
 };
 
+/// Faults planted in the meshes of one method, or of nobody's.
+struct MakerScore {
+  std::string name;
+  std::size_t faults = 0;  ///< 0: none of its meshes drawn was sound enough to plant in
+};
+
 /// What `plumbline selftest` prints. No clocks, no host facts: same seed and counts, same bytes.
 struct SelftestScore {
   std::uint64_t seed = 0;
-  std::vector<KindScore> kinds;          ///< in the catalogue's order
-  std::size_t clean_meshes = 0;          ///< random sound meshes, nothing planted
-  std::size_t clean_false_alarms = 0;    ///< findings on them
-  std::vector<std::string> mesh_makers;  ///< where the meshes came from
+  std::vector<KindScore> kinds;        ///< in the catalogue's order
+  std::size_t clean_meshes = 0;        ///< random sound meshes, nothing planted
+  std::size_t clean_false_alarms = 0;  ///< findings on them
+  std::vector<MakerScore> makers;      ///< of the meshes that conformity (O1) was tried on
   bool interrupted = false;
 
   /// Sums over the kinds of one oracle; of all with an empty name.
