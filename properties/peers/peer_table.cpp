@@ -116,7 +116,7 @@ std::vector<PeerRow> peer_rows() {
   // Across the opposite edges of its fan, and high above them: nothing meets in space.
   PeerRow folded = sound_grid("fold-over in plan");
   Vec3& pulled = folded.mesh.positions[vertex(kMiddle, kMiddle)];
-  pulled = {pulled.x + 1.25 * kSpacingM, pulled.y + 0.25 * kSpacingM, pulled.z + 20};
+  pulled = {pulled.x + 1.3125 * kSpacingM, pulled.y + 0.1875 * kSpacingM, pulled.z + 20};
   add(std::move(folded), fold_over, "no");
 
   PeerRow missing = sound_grid("triangle missing");

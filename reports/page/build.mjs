@@ -3,7 +3,7 @@
 
 // Bundles the page and writes it as a C++ source: node build.mjs OUTPUT.cpp
 // The template's style and script are put in here; its data, when a report is written (report_html.cpp).
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
@@ -11,6 +11,10 @@ import { build } from 'esbuild';
 const here = dirname(fileURLToPath(import.meta.url));
 const output = process.argv[2];
 if (!output) throw new Error('usage: node build.mjs OUTPUT.cpp');
+
+// docs/images/findings, by code: "302" of 302_crack.svg.
+const pictures = Object.fromEntries(readdirSync(join(here, 'findings')).sort().map(
+  (name) => [name.slice(0, 3), readFileSync(join(here, 'findings', name), 'utf8')]));
 
 const bundled = await build({
   entryPoints: [join(here, 'src/main.ts'), join(here, 'src/style.css')],
@@ -22,6 +26,7 @@ const bundled = await build({
   target: 'es2021',
   charset: 'utf8',
   legalComments: 'eof',
+  define: { FINDING_PICTURES: JSON.stringify(pictures) },
 });
 const text = (name) => bundled.outputFiles.find((file) => file.path.endsWith(name)).text;
 

@@ -61,7 +61,7 @@ TEST_F(SelftestCommand, BadOptionsAreOneLine) {
         {"selftest", "--clean", "many"},
         {"selftest", "--seed", "x"},
         {"selftest", "--jobs", "-1"},
-        {"selftest", "--faults", "1", "--clean", "1", "--json", path("no_folder/score.json")}}) {
+        {"selftest", "--faults", "1", "--clean", "1", "--json", path("no_folder/score.json"), "--quiet"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments[1];
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

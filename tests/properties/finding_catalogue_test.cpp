@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,14 +49,13 @@ struct Judged {
   Mesh mesh;
   PlanDomain domain;
   std::vector<Finding> findings;
-  std::string words;
 };
 
 Judged judge_law(const fs::path& path) {
   const properties::Case c = properties::load_case(path);
   const properties::ReplayResult replayed = properties::replay(c);
   EXPECT_TRUE(replayed.confirmed) << path << ": " << replayed.difference;
-  Judged judged{reference_mesh(c.input.terrain), full_domain(c.input.terrain), {}, replayed.outcome.what};
+  Judged judged{reference_mesh(c.input.terrain), full_domain(c.input.terrain), {}};
   if (replayed.outcome.finding) judged.findings.push_back(*replayed.outcome.finding);
   if (replayed.outcome.kind == properties::LawOutcome::Kind::vacuous) {
     Finding nothing;
@@ -117,7 +115,7 @@ std::vector<Finding> judge_picture(const Mesh& mesh, const Mesh& truth) {
 
 Judged judge_file(FindingCode code, const fs::path& path, const fs::path& twin) {
   if (path.extension() == ".toml") return judge_law(path);
-  Judged judged{triangulate(read_mesh_file(path)), promised_square(), {}, {}};
+  Judged judged{triangulate(read_mesh_file(path)), promised_square(), {}};
   if (code == FindingCode::bad_index && path != twin) judged.mesh.positions.pop_back();
   if (code == FindingCode::non_manifold) {
     judged.domain.clear();
@@ -133,8 +131,8 @@ Judged judge_file(FindingCode code, const fs::path& path, const fs::path& twin) 
 std::string drawn(FindingCode code, const Judged& judged) {
   const bool oblique = code == FindingCode::crack || code == FindingCode::non_manifold ||
                        code == FindingCode::error_over_threshold;
-  std::string note;
-  if (code == FindingCode::nothing_judged) note = fmt::format("110 nothing_judged: {}", judged.words);
+  // What it would say of itself is longer than the picture is wide.
+  const std::string note = code == FindingCode::nothing_judged ? "110 nothing_judged" : "";
   return oracle::finding_picture({judged.mesh, judged.domain, judged.findings, oblique, note});
 }
 

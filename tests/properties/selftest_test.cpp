@@ -104,6 +104,7 @@ TEST(Selftest, ABlindOracleFindsNothing) {
     return std::vector<std::size_t>(flight.size());
   };
   judges.recovery = [](std::span<const std::pair<bool, bool>>) { return 0; };
+  judges.keys = [](std::span<const std::uint64_t>, std::span<const std::uint64_t>) { return std::size_t{0}; };
   EXPECT_EQ(with(judges, "O5 stability").found, 0U);
 }
 

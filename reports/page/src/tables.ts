@@ -154,11 +154,22 @@ export function terrainsSection(): HTMLElement | null {
     ]), 'Terrains'));
 }
 
+/** The manual's pictures (SVG) by code; put in when the page is bundled. */
+declare const FINDING_PICTURES: Record<string, string>;
+
+function findingPicture(code: number): HTMLElement | null {
+  const svg = FINDING_PICTURES[String(code)];
+  if (svg === undefined) return null;
+  const holder = el('div', { class: 'example' });
+  holder.innerHTML = svg;
+  return holder;
+}
+
 export function definitionsSection(): HTMLElement {
   return section('definitions', 'Definitions', el('dl', { class: 'definitions' },
     ...facts.catalogue.flatMap(({ code, name, definition }) => [
       el('dt', { id: `finding-${name}` }, el('span', { class: 'code' }, String(code)), ` ${name}`),
-      el('dd', {}, definition),
+      el('dd', {}, definition, findingPicture(code)),
     ])));
 }
 
