@@ -210,7 +210,7 @@ struct SuiteVerdict {
       runs;  ///< terrain (then mesh), trajectory, method, threshold: the suite file's order
   std::vector<GateVerdict> gates;  ///< run order, then gate order
   std::vector<std::string>
-      vacuous;  ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
+      vacuous;             ///< oracles or runs that had nothing to judge: each is a failure (finding 110)
   SelftestScore selftest;  ///< of the oracles that judged; no kinds: it was not taken
   bool interrupted = false;
   /// Every gate holds, nothing was vacuous, nothing is missing, and the oracles passed their own test. A

@@ -43,7 +43,8 @@ TEST_F(Help, NamesEveryCommand) {
   const Outcome outcome = run({"--help"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"run", "fuzz", "replay", "list", "tables", "selftest"}) EXPECT_THAT(outcome.out, HasSubstr(command));
+  for (const char* command : {"run", "fuzz", "replay", "list", "tables", "selftest"})
+    EXPECT_THAT(outcome.out, HasSubstr(command));
 }
 
 TEST_F(Help, OfACommandNamesItsOptions) {
