@@ -37,7 +37,7 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 
 # plumbline_precompile(<target> [headers…]): what nearly every source includes is parsed once a target, not once a source;
-# a quarter of all building. The debug preset does without, so that a source that leans on it does not build there.
+# a quarter of all building. The tidy preset does without: a source that leans on it is a remark there.
 option(PLUMBLINE_PRECOMPILE "Precompile the standard headers that most sources include" ON)
 function(plumbline_precompile target)
   if(PLUMBLINE_PRECOMPILE)

@@ -118,8 +118,11 @@ SolidFault add_fin(Mesh& mesh, Random& random) {
 SolidFault add_fan(Mesh& mesh, Random& random) {
   const std::uint32_t v = any(mesh.positions.size(), random);
   const Vec3 p = mesh.positions[v];
+  // Sideways by a vector that is never parallel to p: across the axis along which p is shortest.
+  const double x = std::fabs(p.x), y = std::fabs(p.y), z = std::fabs(p.z);
+  const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   mesh.positions.push_back(p * 1.5);
-  mesh.positions.push_back(p * 1.5 + Vec3{p.y, p.z, p.x} * 0.25);
+  mesh.positions.push_back(p * 1.5 + cross(p, axis) * 0.25);
   const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
   mesh.triangles.push_back({v, last - 1, last});
   return {FindingCode::non_manifold, "vertex", {v}, {}, 1};

@@ -26,9 +26,9 @@ LawOutcome check(const LawInput& input) {
     if (on_grid && terrain.point(static_cast<int>(i), static_cast<int>(j)) == p) continue;
     oracle::Finding finding = law_finding("no_sample", p);
     if (on_grid) finding.gap_m = p.z - terrain.z(static_cast<int>(i), static_cast<int>(j));
-    return violated(fmt::format("vertex ({}, {}, {}) is no sample; {} m off the nearest one's height", p.x,
-                                p.y, p.z, finding.gap_m),
-                    std::move(finding));
+    const std::string text = fmt::format(
+        "vertex ({}, {}, {}) is no sample; {} m off the nearest one's height", p.x, p.y, p.z, finding.gap_m);
+    return violated(text, std::move(finding));
   }
   return frame.mesh.positions.empty() ? vacuous("nothing was drawn") : held();
 }
