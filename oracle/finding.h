@@ -19,20 +19,29 @@ namespace plumbline::oracle {
 enum class FindingCode : int {
   bad_index = 101,
   non_finite = 102,
+  tile_encoding = 103,
   nothing_judged = 110,  ///< an oracle or law had nothing to judge: a failure, not a pass
   degenerate = 201,
   duplicate = 202,
   non_manifold = 203,
   unused_vertex = 204,
   fold_over = 205,
+  sliver = 206,
+  self_intersection = 207,
   t_junction = 301,
   crack = 302,
   hole = 303,
   overlap = 304,
   outline = 305,
+  slit = 306,
+  border_normal = 307,
+  misplaced = 308,
+  declared_error = 309,
   law_violated = 401,
+  level_gap = 402,
   error_over_threshold = 501,
   uncovered = 502,
+  skirt_visible = 503,
 };
 
 /// What Finding::kind may say, and what it means.
