@@ -233,7 +233,7 @@ TomlTable parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
-TomlTable read_toml(const std::filesystem::path& path) {
+std::string read_toml_text(const std::filesystem::path& path) {
   const std::string name = one_line(path.string());
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -251,7 +251,11 @@ TomlTable read_toml(const std::filesystem::path& path) {
   if (!stream.read(text.data(), static_cast<std::streamsize>(size))) {
     throw InputError(fmt::format("{}: cannot be read; check its permissions", name));
   }
-  return parse_toml(text, path.string());
+  return text;
+}
+
+TomlTable read_toml(const std::filesystem::path& path) {
+  return parse_toml(read_toml_text(path), path.string());
 }
 
 }  // namespace plumbline
