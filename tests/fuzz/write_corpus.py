@@ -5,6 +5,7 @@
 
 Suites and cases have further seeds: the shipped suites and the atlas (see CMakeLists.txt)."""
 import base64
+import gzip
 import json
 import os
 import struct
@@ -233,5 +234,47 @@ def judge() -> None:
     put("judge", "nearly_straight", bytes([5, *flat, 250, 251, 0, 0, 1, 2, 0, 2, 4, 4, 2, 3, 0, 4, 3]))
 
 
-for write in (ply, obj, off, stl, gltf, pose, suite, case, judge):
+def tile() -> None:
+    def deltas(values: list[int]) -> bytes:
+        last, out = 0, b""
+        for value in values:
+            d = value - last
+            out += struct.pack("<H", 2 * d if d >= 0 else -2 * d - 1)
+            last = value
+        return out
+
+    def lists(code: str, triangles: list[int], edges: list[list[int]]) -> bytes:
+        out, highest = struct.pack("<I", len(triangles) // 3), 0
+        for index in triangles:
+            out += struct.pack("<" + code, highest - index)
+            highest += index == highest
+        for edge in edges:
+            out += struct.pack(f"<I{len(edge)}{code}", len(edge), *edge)
+        return out
+
+    header = struct.pack("<3d2f4d3d", 4.4e6, 5.4e5, 4.6e6, 100, 900, 4.4e6, 5.4e5, 4.6e6, 7e4, 0.7, 0.09, 0.72)
+    corners = struct.pack("<I", 4) + deltas([0, 32767, 32767, 0]) + deltas([0, 0, 32767, 32767]) + deltas([0, 9, 32767, 7])
+    body = header + corners + lists("H", [0, 1, 2, 0, 2, 3], [[0, 3], [0, 1], [1, 2], [3, 2]])
+    put("tile", "square.terrain", body)
+    put("tile", "square_gzipped.terrain", gzip.compress(body, 9, mtime=0))
+    json_text = b'{"geometricerror":5}'
+    more = struct.pack("<BI8B", 1, 8, 128, 128, 0, 255, 7, 99, 255, 0)
+    more += struct.pack("<BIB", 2, 1, 255) + struct.pack("<BII", 4, 4 + len(json_text), len(json_text)) + json_text
+    put("tile", "extensions.terrain", body + more + b"\0\0\0")
+    put("tile", "unknown_extension.terrain", body + struct.pack("<BI3B", 9, 3, 1, 2, 3))
+    put("tile", "bad_index.terrain", header + corners + lists("H", [0, 1, 2], [[0, 9], [], [], []])[:-16] + struct.pack("<4I", 0, 0, 0, 0))
+    put("tile", "empty.terrain", header + struct.pack("<6I", 0, 0, 0, 0, 0, 0))
+    put("tile", "many_vertices.terrain", gzip.compress(header + struct.pack("<I", 65537) + deltas([0] * 65537 * 3) + b"\0\0" + lists("I", [0, 1, 2], [[0], [], [], []]), 9, mtime=0))
+
+
+def layer() -> None:
+    ranges = [[{"startX": 0, "startY": 0, "endX": 1, "endY": 0}], [{"startX": 0, "startY": 0, "endX": 3, "endY": 1}, {"startX": 1, "startY": 1, "endX": 2, "endY": 1}]]
+    whole = {"tilejson": "2.1.0", "format": "quantized-mesh-1.0", "version": "1.2.0", "scheme": "tms", "tiles": ["{z}/{x}/{y}.terrain?v={version}"], "projection": "EPSG:4326", "bounds": [0, -90, 180, 90.0], "minzoom": 0, "maxzoom": 1, "extensions": ["octvertexnormals"], "available": ranges}
+    put("layer", "whole.json", json.dumps(whole))
+    put("layer", "mercator.json", json.dumps({"projection": "EPSG:3857", "scheme": "slippyMap", "tiles": ["a"], "parentUrl": "b", "metadataAvailability": 10, "available": [[], [{"startX": 0, "startY": 0, "endX": 1, "endY": 1}]]}))
+    put("layer", "least.json", "{}")
+    put("layer", "deep.json", json.dumps({"available": [[]] * 25 + [[{"startX": 0, "startY": 0, "endX": 67108863, "endY": 33554431}]]}))
+
+
+for write in (ply, obj, off, stl, gltf, pose, suite, case, judge, tile, layer):
     write()
