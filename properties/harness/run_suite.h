@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-/// How to fly; none of it changes a figure.
+/// Which methods of the suite to fly, and how.
 struct RunOptions {
   int jobs = 0;                                      ///< 0: as many as the machine has cores
   std::vector<std::string> methods;                  ///< keep only these of the suite (full ids); empty: all
