@@ -38,6 +38,7 @@ struct GateSpec {
   std::string text;        ///< as written, for reports: "displacement_px.p99 <= 1 tau"
 };
 
+/// A suite file, read and checked.
 struct Suite {
   std::string name;
   std::filesystem::path path;  ///< where it was read from; not part of any result

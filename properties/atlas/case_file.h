@@ -15,6 +15,7 @@
 /// atlas is a folder of them.
 namespace plumbline::properties {
 
+/// A case file: the input, and what the law is to say of it.
 struct Case {
   std::string note;  ///< what the case shows, for readers; may be empty
   std::string law;
@@ -36,6 +37,7 @@ Case load_case(const std::filesystem::path& path);
 /// The same from memory; `name` stands for the file in complaints.
 Case parse_case(std::string_view text, const std::string& name);
 
+/// What a case does when it is run again.
 struct ReplayResult {
   LawOutcome outcome;
   bool confirmed = false;  ///< the outcome is the stored one, bit for bit

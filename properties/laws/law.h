@@ -49,6 +49,7 @@ struct LawOutcome {
   };
   std::vector<Part> parts;
 };
+/// As the enumerator is spelled.
 std::string_view outcome_name(LawOutcome::Kind kind);
 
 /// A law: what must hold for every terrain, camera and threshold, for the methods that promise it.
