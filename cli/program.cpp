@@ -48,6 +48,7 @@ int obey(int argc, char** argv) {
   program.require_subcommand(1);
   int status = kPass;
   add_run(program, status);
+  add_check(program, status);
   add_fuzz(program, status);
   add_replay(program, status);
   add_list(program, status);
