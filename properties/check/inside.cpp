@@ -189,6 +189,7 @@ class Inside {
     const auto pairs = oracle::self_intersections(subject_.mesh);
     if (!pairs) return;
     facts.self_intersections = pairs->size();
+    facts.self_intersections_judged = true;
     for (const auto& pair : *pairs) {
       Finding finding;
       finding.code = FindingCode::self_intersection;

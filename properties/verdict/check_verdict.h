@@ -51,7 +51,9 @@ struct CheckedMesh {
   double median_edge_m = 0;
   SkirtFigures skirt;
   double least_skirt_m = 0;  ///< that covers every gap to its neighbours; 0: none needed
-  std::size_t self_intersections = 0;  ///< objects: pairs of triangles
+  /// Objects: pairs of triangles; 0 proves something only where it was asked, which needs a manifold.
+  std::size_t self_intersections = 0;
+  bool self_intersections_judged = false;
 };
 
 /// One finding with whose it is.
