@@ -175,7 +175,10 @@ Guess guess(const Dem& dem, const std::vector<Placing>& all, const Evidence& evi
   std::optional<Guess> best;
   bool several = false;
   for (const Candidate& c : candidates) {
-    if (rank(c) != best_rank || (c.lie == Lie::overlaps && c.common_share < best_share)) continue;
+    // A mesh of unit size lies inside nearly every DEM: `fit` may compete, by heights.
+    const bool competes = c.lie == Lie::stretched && best_rank < static_cast<int>(Lie::same);
+    if (!competes && (rank(c) != best_rank || (c.lie == Lie::overlaps && c.common_share < best_share)))
+      continue;
     const Fit fit = fit_of(dem, c.placing, evidence);
     if (!best) {
       best = Guess{c, fit};
@@ -204,8 +207,8 @@ std::string guess_in_words(const Guess& guess, const std::vector<Placing>& all) 
   std::string reason = lie == Lie::same       ? "its box is the DEM's"
                        : lie == Lie::inside   ? "its box lies inside the DEM's"
                        : lie == Lie::overlaps ? "so it shares most ground with the DEM"
-                                              : "no other placing brings it over the DEM";
-  if (guess.by_heights) reason += " and its heights fit no worse than otherwise";
+                                              : "no other brings it over the DEM with heights that fit";
+  if (guess.by_heights && lie != Lie::stretched) reason += " and its heights fit no worse than otherwise";
   std::string others;
   for (const Placing& placing : all) {
     if (placing.name != guess.candidate.placing.name) others += (others.empty() ? "" : ", ") + placing.name;
