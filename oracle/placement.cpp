@@ -49,6 +49,14 @@ class Search {
   Search(std::span<const Vec3> vertices, const Terrain& terrain, std::span<const std::uint8_t> has_data)
       : terrain_(terrain), has_data_(has_data) {
     const double spacing_m = terrain.spacing_m;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    low_ = {kInfinity, kInfinity};
+    high_ = {-kInfinity, -kInfinity};
+    for (const Vec3& p : vertices) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+      low_ = {std::min(low_.x, p.x / spacing_m), std::min(low_.y, p.y / spacing_m)};
+      high_ = {std::max(high_.x, p.x / spacing_m), std::max(high_.y, p.y / spacing_m)};
+    }
     for (const std::size_t k : spread_indices(vertices.size(), kMisplacementSample)) {
       const Vec3& p = vertices[k];
       if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) {
@@ -79,6 +87,7 @@ class Search {
   const Terrain& terrain_;
   std::span<const std::uint8_t> has_data_;
   std::vector<Vec3> vertices_, scouts_;  // plan in samples
+  Vec2 low_, high_;                      // the box of all vertices
   Fit given_;
   std::optional<Alternative> best_;
 };
@@ -133,15 +142,21 @@ bool Search::worth_a_search() const {
 }
 
 void Search::try_symmetries() {
-  const double east = terrain_.columns - 1, north = terrain_.rows - 1;
   const auto consider_one = [&](Kind kind, bool swap, bool flip_x, bool flip_y) {
-    Arrangement a;
-    a.swap = swap;
-    if (swap) a.scale = {east / north, north / east};
-    if (flip_x) a.scale.x = -a.scale.x;
-    if (flip_y) a.scale.y = -a.scale.y;
-    a.shift = {flip_x ? east : 0, flip_y ? north : 0};
-    consider({.kind = kind}, a);
+    for (const auto& [low, high] :
+         {std::pair{Vec2{}, Vec2{terrain_.columns - 1.0, terrain_.rows - 1.0}}, std::pair{low_, high_}}) {
+      const double east = high.x - low.x, north = high.y - low.y;
+      if (!(east > 0 && north > 0)) continue;
+      Arrangement a;
+      a.swap = swap;
+      a.scale = swap ? Vec2{east / north, north / east} : Vec2{1, 1};
+      if (flip_x) a.scale.x = -a.scale.x;
+      if (flip_y) a.scale.y = -a.scale.y;
+      const Vec2 from = swap ? Vec2{low.y, low.x} : low;  // what the swap makes of the box's corner
+      a.shift = {(flip_x ? high.x : low.x) - a.scale.x * from.x,
+                 (flip_y ? high.y : low.y) - a.scale.y * from.y};
+      consider({.kind = kind}, a);
+    }
   };
   consider_one(Kind::rows_flipped, false, false, true);
   consider_one(Kind::columns_flipped, false, true, false);

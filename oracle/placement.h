@@ -49,12 +49,12 @@ struct Misplacement {
 /// Compares a mesh's vertices with the terrain's surface as they lie, and as they would lie in other
 /// arrangements: RMS of vertex height less surface height, over the vertices that lie over data.
 ///
-/// Tried are: the other seven of the grid's symmetries (the rectangle mapped onto itself, stretched where
-/// rows and columns swap and their numbers differ); shifts by half samples up to kMisplacementWindow samples
-/// each way (half a sample is the centre of a pixel taken for its corner); a constant offset of the heights,
-/// their mean error; a factor of the heights, 0.3048, its inverse, or the least squares one; n samples spread
-/// over n cells from the south-west or the north-west corner or about the middle, and the other way round.
-/// One at a time, not combined.
+/// Tried are: the other seven of the grid's symmetries (the rectangle of samples mapped onto itself, and the
+/// mesh's own box; stretched where rows and columns swap and their numbers differ); shifts by half samples up
+/// to kMisplacementWindow samples each way (half a sample is the centre of a pixel taken for its corner); a
+/// constant offset of the heights, their mean error; a factor of the heights, 0.3048, its inverse, or the
+/// least squares one; n samples spread over n cells from the south-west or the north-west corner or about the
+/// middle, and the other way round. One at a time, not combined.
 ///
 /// None is named unless (a) its RMS is at most kMisplacementShare of the given one's; (b) the given one's is
 /// no less than an eighth of what the terrain changes by from one sample to the next (RMS): lying a quarter

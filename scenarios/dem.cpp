@@ -123,6 +123,12 @@ std::string spacing_in_words(const Dem& dem) {
                            : "not georeferenced: taken as 1 m apart";
 }
 
+std::string crs_in_words(const RasterFrame& frame) {
+  if (!frame.georeferenced) return "";
+  if (frame.crs.empty()) return ", no CRS: taken as metres";
+  return frame.crs == "unnamed" || frame.crs == "unknown" ? ", a CRS without a name" : ", " + frame.crs;
+}
+
 std::string rows_in_words(const RasterFrame& frame) {
   std::string words = !frame.georeferenced ? "the file's first row is taken as the northmost"
                       : frame.rows_from_north
@@ -169,7 +175,7 @@ Dem read_dem(const DemRequest& request) {
       "{}: {} x {} samples, {}{}; {}; samples are points at the centres of the file's cells; heights in {}; "
       "{}",
       one_line(request.file.filename().string(), 100), frame.columns, frame.rows, spacing_in_words(dem),
-      frame.crs.empty() ? (frame.georeferenced ? ", no CRS" : "") : ", " + frame.crs, rows_in_words(frame),
+      crs_in_words(frame), rows_in_words(frame),
       frame.height_unit_m == 1 ? "metres" : fmt::format("'{}', turned into metres", frame.height_unit),
       holes_in_words(dem, request.holes, samples));
   return dem;

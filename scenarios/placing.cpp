@@ -151,7 +151,7 @@ Candidate weigh(const Dem& dem, const Placing& placing, const Box& box) {
 struct Guess {
   Candidate candidate;
   Fit fit;
-  bool by_heights = false;  // more than one placing was possible by its box
+  bool by_heights = false;  // several placings were possible by the box, and this one fits best
 };
 
 Guess guess(const Dem& dem, const std::vector<Placing>& all, const Evidence& evidence) {
@@ -174,9 +174,14 @@ Guess guess(const Dem& dem, const std::vector<Placing>& all, const Evidence& evi
   }
   std::optional<Guess> best;
   bool several = false;
+  double least_rms_m = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) {
-    if (rank(c) != best_rank || (c.lie == Lie::overlaps && c.common_share < best_share)) continue;
+    // A mesh of unit size lies inside nearly every DEM: `fit` may compete, by heights.
+    const bool competes = c.lie == Lie::stretched && best_rank < static_cast<int>(Lie::same);
+    if (!competes && (rank(c) != best_rank || (c.lie == Lie::overlaps && c.common_share < best_share)))
+      continue;
     const Fit fit = fit_of(dem, c.placing, evidence);
+    least_rms_m = std::min(least_rms_m, fit.rms_m);
     if (!best) {
       best = Guess{c, fit};
       continue;
@@ -189,7 +194,7 @@ Guess guess(const Dem& dem, const std::vector<Placing>& all, const Evidence& evi
     const bool winding_agrees = !c.placing.mirrors() || evidence.twice_plan_area < 0;
     if (fit.rms_m < kDecided * best->fit.rms_m && winding_agrees) best = Guess{c, fit};
   }
-  best->by_heights = several;
+  best->by_heights = several && best->fit.vertices > 0 && best->fit.rms_m <= least_rms_m;
   return *best;
 }
 
@@ -204,8 +209,8 @@ std::string guess_in_words(const Guess& guess, const std::vector<Placing>& all) 
   std::string reason = lie == Lie::same       ? "its box is the DEM's"
                        : lie == Lie::inside   ? "its box lies inside the DEM's"
                        : lie == Lie::overlaps ? "so it shares most ground with the DEM"
-                                              : "no other placing brings it over the DEM";
-  if (guess.by_heights) reason += " and its heights fit no worse than otherwise";
+                                              : "no other brings it over the DEM with heights that fit";
+  if (guess.by_heights && lie != Lie::stretched) reason += " and its heights fit no worse than otherwise";
   std::string others;
   for (const Placing& placing : all) {
     if (placing.name != guess.candidate.placing.name) others += (others.empty() ? "" : ", ") + placing.name;

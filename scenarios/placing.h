@@ -74,11 +74,12 @@ struct LaidDem {
 ///
 /// Guessing looks at boxes first: placings under which the meshes' box is the DEM's rectangle of samples (to
 /// kBoxMarginSamples), before those under which it lies inside, before the one with the largest share in
-/// common, before `fit`. Among those left the heights at (at most kPlacingVertices) vertices decide: a
-/// placing is preferred to an earlier one if it at least halves the RMS; and one that runs south only if,
-/// besides, the triangles run clockwise in the mesh's own x and y, as they do when seen from above y runs
-/// south. Otherwise a mesh with its rows flipped would pass for one that counts them downwards; as it is, it
-/// is laid north-up, and oracle::recognise_misplacement says so. Deterministic.
+/// common, before `fit` (which still competes by heights with all but the first). Among those left the
+/// heights at (at most kPlacingVertices) vertices decide: a placing is preferred to an earlier one if it at
+/// least halves the RMS; and one that runs south only if, besides, the triangles run clockwise in the mesh's
+/// own x and y, as they do when seen from above y runs south. Otherwise a mesh with its rows flipped would
+/// pass for one that counts them downwards; as it is, it is laid north-up, and oracle::recognise_misplacement
+/// says so. Deterministic.
 ///
 /// Leave skirts out of the meshes: their vertices are not on the terrain.
 ///

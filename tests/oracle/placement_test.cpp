@@ -157,6 +157,28 @@ TEST(Placement, EveryPlantedFaultIsRecognisedAsItself) {
   }
 }
 
+TEST(Placement, APartIsTurnedWithinItsOwnBox) {
+  // A tile of larger ground, flipped or turned by its maker before it was put where it belongs.
+  const Terrain terrain = rough(97, 97, 11);
+  std::size_t tried = 0;
+  for (const Planted& one : planted()) {
+    if (one.kind > Kind::rotated_270) continue;
+    std::vector<Vec3> vertices;
+    for (int j = 0; j <= 24; j += 2) {
+      for (int i = 0; i <= 36; i += 2) {
+        const Vec3 p = one.fault({i * 1.0, j * 1.0, terrain.z(20 + i, 50 + j)}, {36, 24});
+        vertices.push_back({20 + p.x, 50 + p.y, p.z});
+      }
+    }
+    const auto found = recognise_misplacement(vertices, terrain);
+    ASSERT_TRUE(found) << misplacement_name(one.kind);
+    EXPECT_EQ(found->kind, one.kind) << found->words;
+    EXPECT_LT(found->rms_m, 1e-9 * found->given_rms_m) << found->words;
+    ++tried;
+  }
+  EXPECT_EQ(tried, 7U);
+}
+
 TEST(Placement, RemediesAreNumbers) {
   const Terrain terrain = rough(65, 65, 4, 30);
   const auto after = [&](auto fault) {
