@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
 #include "scenarios/mesh_file/scanner.h"
+#include "scenarios/whole_file.h"
 
 namespace plumbline {
 namespace {
@@ -75,18 +74,22 @@ MeshFile parse(std::string_view bytes, std::string_view name,
                lower.begin(), lower.end(), name.end() - static_cast<std::ptrdiff_t>(lower.size()),
                [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b + 32) : b); });
   };
+  const auto of = [](const char* format, MeshFile mesh) {
+    mesh.format = format;
+    return mesh;
+  };
   if (bytes.starts_with("glTF") || ends_in(".glb") || ends_in(".gltf"))
-    return parse_gltf(bytes, name, folder);
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
-  if (ends_in(".obj")) return parse_obj(bytes, name);
-  if (ends_in(".off") || bytes.starts_with("OFF")) return parse_off(bytes, name);
+    return of("glTF", parse_gltf(bytes, name, folder));
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return of("PLY", parse_ply(bytes, name));
+  if (ends_in(".obj")) return of("OBJ", parse_obj(bytes, name));
+  if (ends_in(".off") || bytes.starts_with("OFF")) return of("OFF", parse_off(bytes, name));
   if (ends_in(".stl") || bytes.starts_with("solid")) {
     // Some binary files begin with "solid" too; their size gives them away.
     const bool text =
         bytes.starts_with("solid") && bytes.substr(0, 1024).find("facet") != std::string_view::npos;
     if (text || (bytes.starts_with("solid") && bytes.find("endsolid") != std::string_view::npos))
-      return parse_stl_text(bytes, name);
-    if (bytes.size() >= 84) return parse_stl_binary(bytes, name);
+      return of("STL", parse_stl_text(bytes, name));
+    if (bytes.size() >= 84) return of("STL", parse_stl_binary(bytes, name));
   }
   throw InputError(
       fmt::format("{}: no mesh format that is read here; PLY, OBJ, OFF, STL and glTF are", one_line(name)));
@@ -97,13 +100,7 @@ MeshFile parse(std::string_view bytes, std::string_view name,
 MeshFile parse_mesh(std::string_view bytes, std::string_view name) { return parse(bytes, name, {}); }
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(fmt::format("{}: is a folder, not a mesh", one_line(path.string())));
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw InputError(fmt::format("cannot read {}: no such file, or no permission", one_line(path.string())));
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = read_whole_file(path, "a mesh");
   return parse(bytes, path.string(), path.parent_path());
 }
 
