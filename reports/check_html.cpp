@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "reports/check_page.h"
+#include "reports/check_page_parts.h"
 #include "reports/check_report.h"
 #include "reports/check_words.h"
 #include "reports/digest.h"
@@ -29,10 +30,6 @@ using verdict::SeamVerdict;
 /// Rows of a table that are shown at once, and that a page holds at all; the rest is in check.json.
 constexpr std::size_t kRowsShown = 25, kRowsHeld = 400;
 
-std::string data_uri(std::string_view type, std::string_view bytes) {
-  return fmt::format("data:{};base64,{}", type, base64(bytes));
-}
-
 /// A file's name as part of a link: its own percent signs are no escapes.
 std::string link_to(std::string_view file) {
   std::string out;
@@ -40,13 +37,10 @@ std::string link_to(std::string_view file) {
   return markup_escape(out);
 }
 
-std::string fact(std::string_view name, std::string_view value) {
-  return value.empty() ? std::string()
-                       : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, markup_escape(value));
-}
-
-std::string tag(bool good, std::string_view word) {
-  return fmt::format("<span class=\"tag {}\">{}</span>", good ? "good" : "bad", word);
+/// A clause as a sentence.
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
 }
 
 std::string state_tag(SeamState state) {
@@ -86,9 +80,7 @@ class CheckPage {
     map();
     findings();
     seams();
-    if (verdict_.terrain) terrain(*verdict_.terrain);
-    if (verdict_.reference) reference(*verdict_.reference);
-    if (verdict_.image) image(*verdict_.image);
+    measured();
     meshes();
     notes();
     definitions();
@@ -146,7 +138,8 @@ class CheckPage {
     if (proved.empty()) return;
     open("proved", "Proved");
     body_ += "<ul class=\"plain\">\n";
-    for (const std::string& sentence : proved) body_ += fmt::format("<li>{}</li>\n", markup_escape(sentence));
+    for (const std::string& sentence : proved)
+      body_ += fmt::format("<li>{}</li>\n", markup_escape(capital(sentence)));
     body_ += "</ul>\n";
     close();
   }
@@ -158,10 +151,13 @@ class CheckPage {
   }
 
   void map() {
+    if (verdict_.meshes.size() == 1 && verdict_.findings.empty()) return;  // one empty box
     const std::string drawing = plan_svg(verdict_);
     if (drawing.empty()) return;
     open("map", "Where");
-    body_ += "<div class=\"frame\">\n" + drawing + "<div class=\"legend\">\n";
+    const bool plain = verdict_.meshes.size() == 1;
+    body_ += fmt::format("<div class=\"frame{}\">\n", plain ? " small" : "") + drawing +
+             "<div class=\"legend\">\n";
     const SeamTotals totals = seam_totals(verdict_);
     const auto line = [](std::string_view style) {
       return fmt::format("<path class=\"seam {}\" d=\"M1 7H25\"/>", style);
@@ -200,20 +196,23 @@ class CheckPage {
   void findings(const CodeGroup& group) {
     body_ += fmt::format(
         "<h3 id=\"code-{0}\"><span class=\"code\">{0}</span> <a href=\"#what-{0}\">{1}</a> <span "
-        "class=\"count\">"
-        "{2}{3}</span></h3>\n<p class=\"lead\">{4}</p>\n",
+        "class=\"count\">{2}{3}</span>{4}</h3>\n<p class=\"lead\">{5}</p>\n",
         static_cast<int>(group.code), code_name(group.code), group.exact ? "" : "at least ",
-        counted_code(group.code, group.count), markup_escape(code_remedy(group.code)));
+        group.count == 1 ? std::string("once") : fmt::format("{} times", group.count),
+        group.hazard ? " <span class=\"tag warn\">hazard</span>" : "",
+        markup_escape(code_remedy(group.code)));
     std::string cards;
     std::vector<std::string> rows;
+    std::size_t shown = 0;
     for (const std::size_t i : group.listed) {
       const auto spots = spots_.find(i);
+      if (spots != spots_.end()) ++shown;
       if (spots != spots_.end())
         for (const CheckSpot* spot : spots->second) cards += card(*spot, verdict_.findings[i]);
       if (rows.size() < kRowsHeld) rows.push_back(row(verdict_.findings[i]));
     }
     if (!cards.empty()) body_ += "<div class=\"spots\">\n" + cards + "</div>\n";
-    if (!rows.empty())
+    if (shown < group.count && !rows.empty())
       body_ += table("<th>mesh</th><th>kind</th><th>at x, y, z</th><th>size</th><th>what follows</th>", rows,
                      group.count);
   }
@@ -271,7 +270,7 @@ class CheckPage {
     const bool gap = seam.largest_gap_m != 0;
     const auto number = [](const std::string& text) { return fmt::format("<td class=\"n\">{}</td>", text); };
     const auto signed_number = [](double value) { return (value > 0 ? "+" : "") + short_number(value); };
-    std::string out = fmt::format("<tr><td>{}</td><td class=\"name\">{} | {}</td>", state_tag(seam.state),
+    std::string out = fmt::format("<tr><td>{}</td><td class=\"name\">{}<br>{}</td>", state_tag(seam.state),
                                   markup_escape(mesh_name(verdict_, seam.mesh)),
                                   markup_escape(mesh_name(verdict_, seam.other_mesh)));
     if (levels)
@@ -287,106 +286,25 @@ class CheckPage {
     return out + "</tr>\n";
   }
 
-  void bounds(const std::vector<DeclaredWords>& all) {
-    if (all.empty()) return;
-    body_ += "<ul class=\"bounds\">\n";
-    for (const DeclaredWords& words : all)
-      body_ += fmt::format("<li>{}<span>{}</span></li>\n", tag(words.holds, words.holds ? "holds" : "broken"),
-                           markup_escape(words.sentence));
-    body_ += "</ul>\n";
-  }
-
-  void terrain(const verdict::TerrainVerdict& terrain) {
-    open("terrain", "Against the DEM", markup_escape(terrain.file));
-    if (!terrain.better_match.empty())
-      body_ += fmt::format(
-          "<p class=\"alarm\">The mesh matches if {}. Mend that first: what follows was "
-          "measured without it.</p>\n",
-          markup_escape(terrain.better_match));
-    const oracle::VerticalError& error = terrain.vertical_m;
-    const bool any = error.area_m2 > 0;
-    std::string facts = "<dl class=\"facts\">\n";
-    if (any)
-      facts += fact("Largest vertical error",
-                    fmt::format("{} at {}", metres(error.max), place_words(terrain.at))) +
-               fact("Certain, whichever way the DEM's cells are split",
-                    fmt::format("{} at {}", metres(error.certain_max), place_words(terrain.certain_at))) +
-               fact("RMS, mean", fmt::format("{}, {}", metres(error.rms), metres(error.mean))) +
-               fact("At the samples alone",
-                    fmt::format("{} at {}", metres(terrain.samples_max_m), place_words(terrain.samples_at)));
-    facts += fact("Judged", any ? fmt::format("{} % of the mesh's plan area",
-                                              short_number(100 * terrain.judged_share, 4))
-                                : "nothing: no plan area in common") +
-             fact("The DEM's own ambiguity between samples", metres(terrain.diagonal_ambiguity_m)) +
-             fact("Read as", terrain.reading) + fact("Laid over it", terrain.placing) + "</dl>\n";
-    if (terrain.declared_m) {
-      body_ += fmt::format("<h3>The declared bound of {}</h3>\n", metres(*terrain.declared_m));
-      bounds(declared_words(terrain));
+  void measured() {
+    if (verdict_.terrain) {
+      open("terrain", "Against the DEM", markup_escape(verdict_.terrain->file));
+      body_ += terrain_part(*verdict_.terrain, images_.error_map, pictures_.error_map_box);
+      close();
     }
-    if (images_.error_map.empty()) {
-      body_ += facts;
-    } else {
-      body_ += fmt::format(
-          "<div class=\"two\"><figure class=\"frame picture-wide\"><img src=\"{}\" alt=\"Error map\">"
-          "<figcaption>Mesh minus DEM, metres, north up: blue where the mesh lies too low, red where too "
-          "high, "
-          "grey where nothing was judged. The ring marks the largest that this grid "
-          "hits.</figcaption></figure>"
-          "\n{}</div>\n",
-          data_uri("image/png", images_.error_map), facts);
+    if (verdict_.reference) {
+      open("reference", "Against the reference", markup_escape(verdict_.reference->file));
+      body_ += reference_part(*verdict_.reference);
+      close();
     }
-    close();
-  }
-
-  void reference(const verdict::ReferenceVerdict& reference) {
-    const oracle::Likeness& likeness = reference.likeness;
-    const auto interval = [](oracle::CertifiedDistance distance) {
-      return fmt::format("{} to {}", metres(distance.least_m), metres(distance.most_m));
-    };
-    open("reference", "Against the reference", markup_escape(reference.file));
-    bounds(declared_words(reference));
-    body_ += "<dl class=\"facts\">\n" +
-             fact("Hausdorff distance, certified", interval(likeness.hausdorff())) +
-             fact("Of the reference from the mesh", interval(likeness.to_mesh)) +
-             fact("Of the mesh from the reference", interval(likeness.from_mesh)) +
-             fact("Normals differ, mean and largest",
-                  fmt::format("{}°, {}°", short_number(likeness.normal_mean_deg),
-                              short_number(likeness.normal_max_deg))) +
-             fact("Turned over", fmt::format("{} % of the area", short_number(100 * likeness.turned_share))) +
-             "</dl>\n";
-    close();
-  }
-
-  void image(const verdict::ImageVerdict& image) {
-    const oracle::PixelFigure& px = image.image.displacement_px;
-    open("camera", "From the camera",
-         fmt::format("At {}, {} x {} pixels, {}° high.", place_words(image.camera.position),
-                     image.camera.width_px, image.camera.height_px, short_number(image.camera.fov_y_deg)));
-    body_ += "<dl class=\"facts\">\n" + fact("Pixels that see the mesh", std::to_string(image.mesh_px)) +
-             fact("A skirt's wall before anything else", fmt::format("{} pixels", image.skirt_px)) +
-             fact("Findings that are visible", std::to_string(image.visible_findings));
-    if (image.against_terrain)
-      body_ +=
-          fact("Displacement: 99 %, largest, RMS",
-               px.count == 0 ? "nothing was judged"
-                             : fmt::format("{} px, {} px, {} px", short_number(px.p99), short_number(px.max),
-                                           short_number(px.rms))) +
-          fact("Over the threshold",
-               fmt::format("{} % of {} pixels", short_number(100 * image.image.over_threshold), px.count)) +
-          fact("Without a mesh below", fmt::format("{} pixels", image.image.uncovered_px)) +
-          fact("Silhouette", fmt::format("{} pixels differ, by up to {} px", image.image.silhouette_pixels,
-                                         short_number(image.image.silhouette_max_px)));
-    body_ += "</dl>\n";
-    if (images_.camera) {
-      body_ += "<div class=\"triptych\"><div>\n";
-      for (const auto& [png, words] : {std::pair{&images_.camera->mesh, "the mesh, with its edges"},
-                                       std::pair{&images_.camera->error, "displacement"},
-                                       std::pair{&images_.camera->reference, "the reference"}})
-        body_ += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                             data_uri("image/png", *png), words, words);
-      body_ += "</div></div>\n";
+    if (verdict_.image) {
+      const Camera& camera = verdict_.image->camera;
+      open("camera", "From the camera",
+           fmt::format("At {}, {} x {} pixels, {}° high.", place_words(camera.position), camera.width_px,
+                       camera.height_px, short_number(camera.fov_y_deg)));
+      body_ += image_part(*verdict_.image, images_.camera);
+      close();
     }
-    close();
   }
 
   void meshes() {

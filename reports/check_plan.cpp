@@ -20,9 +20,11 @@ using verdict::SeamState;
 using verdict::SeamVerdict;
 
 constexpr double kWidth = 960, kHeight = 600, kMargin = 14;
-constexpr double kCellPx = 8;          ///< of the summary of many meshes
-constexpr double kLabelPx = 64;        ///< boxes narrower than this go without their name
-constexpr double kLetterPx = 6.2;      ///< of a label
+constexpr double kCellPx = 8;    ///< of the summary of many meshes
+constexpr double kLabelPx = 64;  ///< boxes narrower than this go without their name
+constexpr std::size_t kFewestLetters = 6;
+constexpr double kLetterPx = 6.2;  ///< of a label
+constexpr std::size_t kCirclesOverCells = 24;
 constexpr std::size_t kCircles = 200;  ///< findings drawn
 constexpr double kLeastRadius = 4.5, kMostRadius = 13;
 
@@ -87,8 +89,12 @@ std::optional<Segment> shared_border(const CheckVerdict& verdict, const PlanView
   return Segment{view.at(x0, my), view.at(x1, my)};
 }
 
-std::string short_name(const std::string& file, std::size_t letters) {
+/// A label: without the ending, and cut from the left. Empty where too little of it would be left.
+std::string short_name(std::string file, std::size_t letters) {
+  const std::size_t dot = file.rfind('.');
+  if (dot != std::string::npos && dot > file.rfind('/') + 1) file.resize(dot);
   if (file.size() <= letters) return file;
+  if (letters < kFewestLetters) return {};
   std::size_t from = file.size() - letters + 1;
   while (from < file.size() && (static_cast<unsigned char>(file[from]) & 0xC0U) == 0x80U) ++from;
   return "…" + file.substr(from);
@@ -164,14 +170,14 @@ std::string cells(const CheckVerdict& verdict, const PlanView& view) {
 }
 
 /// The worst findings, drawn last to first; sizes are compared within a code.
-std::string circles(const CheckVerdict& verdict, const PlanView& view) {
+std::string circles(const CheckVerdict& verdict, const PlanView& view, std::size_t most_shown) {
   std::map<oracle::FindingCode, double> largest;
   for (const verdict::CheckFinding& finding : verdict.findings) {
     double& most = largest[finding.finding.code];
     most = std::max(most, size_of(finding.finding));
   }
   std::string out;
-  for (std::size_t i = std::min(verdict.findings.size(), kCircles); i-- > 0;) {
+  for (std::size_t i = std::min(verdict.findings.size(), most_shown); i-- > 0;) {
     const verdict::CheckFinding& finding = verdict.findings[i];
     if (!finite(finding.finding.at)) continue;
     const double most = largest[finding.finding.code];
@@ -196,9 +202,9 @@ std::string plan_svg(const CheckVerdict& verdict) {
       "<svg class=\"plan\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\" "
       "aria-label=\"All meshes in plan\">\n",
       std::max(view.width, 2 * kMargin + 1), std::max(view.height, 2 * kMargin + 1));
-  out += verdict.meshes.size() > kPlanBoxes ? cells(verdict, view)
-                                            : boxes(verdict, view) + seam_lines(verdict, view);
-  return out + circles(verdict, view) + "</svg>\n";
+  const bool many = verdict.meshes.size() > kPlanBoxes;
+  out += many ? cells(verdict, view) : boxes(verdict, view) + seam_lines(verdict, view);
+  return out + circles(verdict, view, many ? kCirclesOverCells : kCircles) + "</svg>\n";
 }
 
 }  // namespace plumbline::reports

@@ -100,11 +100,13 @@ std::vector<FindingCode> rule_codes(const CheckVerdict& verdict) {
 
 Json location_json(const std::string& file, Vec3 at) {
   const std::string place = place_words(at);
-  return {{"physicalLocation", {{"artifactLocation", {{"uri", file_uri(file)}}}}},
-          {"logicalLocations", Json::array({{{"name", place},
-                                             {"fullyQualifiedName", fmt::format("{} at {}", file, place)},
-                                             {"kind", "position"}}})},
-          {"properties", {{"at", xyz(at)}}}};
+  // A mesh has no lines, but code scanning shows no result without one.
+  return {
+      {"physicalLocation", {{"artifactLocation", {{"uri", file_uri(file)}}}, {"region", {{"startLine", 1}}}}},
+      {"logicalLocations", Json::array({{{"name", place},
+                                         {"fullyQualifiedName", fmt::format("{} at {}", file, place)},
+                                         {"kind", "position"}}})},
+      {"properties", {{"at", xyz(at)}}}};
 }
 
 Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::size_t rule,

@@ -62,29 +62,35 @@ class CheckText {
   }
 
   void looked_at() {
-    const std::string frame =
-        verdict_.frame.empty() ? std::string() : fmt::format("; x, y, z: {}", verdict_.frame);
-    const auto one = [](const CheckedMesh& mesh) {
-      return fmt::format("{} ({}): {} triangles, {} vertices, {}", mesh.file, mesh.format, mesh.triangles,
-                         mesh.vertices, how_held(mesh));
+    const auto counts = [](std::size_t triangles, std::size_t vertices) {
+      return fmt::format("{} triangles, {} vertices", triangles, vertices);
     };
-    if (verdict_.meshes.size() == 1)
-      return text_.line(0, fmt::format("Looked at {}{}.", one(verdict_.meshes.front()), frame));
-    std::size_t triangles = 0, vertices = 0;
-    std::map<std::string, std::size_t> ways;
-    for (const CheckedMesh& mesh : verdict_.meshes) {
-      triangles += mesh.triangles;
-      vertices += mesh.vertices;
-      ++ways[how_held(mesh)];
-    }
-    text_.line(0, fmt::format("Looked at {} meshes: {} triangles, {} vertices{}.", verdict_.meshes.size(),
-                              triangles, vertices, frame));
-    if (verdict_.meshes.size() > kMeshes && listing_ == Listing::brief) {
-      for (const auto& [way, count] : ways) text_.line(2, fmt::format("{} of them {}", count, way));
+    if (verdict_.meshes.size() == 1) {
+      const CheckedMesh& mesh = verdict_.meshes.front();
+      text_.line(0, fmt::format("Looked at {} ({}): {}, {}.", mesh.file, mesh.format,
+                                counts(mesh.triangles, mesh.vertices), how_held(mesh)));
     } else {
-      for (const CheckedMesh& mesh : verdict_.meshes) text_.line(2, one(mesh));
+      std::size_t triangles = 0, vertices = 0;
+      std::map<std::string, std::size_t> ways;
+      for (const CheckedMesh& mesh : verdict_.meshes) {
+        triangles += mesh.triangles;
+        vertices += mesh.vertices;
+        ++ways[fmt::format("{}, {}", mesh.format, how_held(mesh))];
+      }
+      text_.line(0,
+                 fmt::format("Looked at {} meshes: {}", verdict_.meshes.size(), counts(triangles, vertices)));
+      const bool alike = ways.size() == 1;
+      const bool few = verdict_.meshes.size() <= kMeshes || listing_ == Listing::full;
+      if (alike || !few)
+        for (const auto& [way, count] : ways)
+          text_.line(2, fmt::format("{}{}", alike ? "each " : fmt::format("{} of them ", count), way));
+      if (few)
+        for (const CheckedMesh& mesh : verdict_.meshes)
+          text_.line(2, fmt::format("{}: {}{}", mesh.file, counts(mesh.triangles, mesh.vertices),
+                                    alike ? "" : fmt::format(", {}, {}", mesh.format, how_held(mesh))));
     }
     skirts();
+    if (!verdict_.frame.empty()) text_.line(0, fmt::format("x, y, z: {}.", verdict_.frame));
   }
 
   void skirts() {
@@ -98,12 +104,12 @@ class CheckText {
       share = std::min(share, mesh.skirt.border_share);
     }
     if (hung == 0) return;
-    text_.line(2,
-               fmt::format("skirts: {} of {} meshes have one{}; the shallowest hangs {} down, the shortest "
-                           "along {:.0f} % of its border",
-                           hung, verdict_.meshes.size(),
-                           stated == 0 ? "" : fmt::format(" ({} as you said, not in the file)", stated),
-                           metres(least), 100 * share));
+    text_.line(2, fmt::format("skirts: {} of {} meshes have one{}, at least {} deep, along {}", hung,
+                              verdict_.meshes.size(),
+                              stated == 0 ? "" : fmt::format(" ({} as you said, not in the file)", stated),
+                              metres(least),
+                              share >= 1 ? std::string("all of the border")
+                                         : fmt::format("{:.1f} % of the border or more", 100 * share)));
   }
 
   void findings() {
@@ -118,7 +124,8 @@ class CheckText {
       const std::string link = code_link(group.code);
       text_.line(2, fmt::format("{} {}{}, {}{}{}", static_cast<int>(group.code), code_name(group.code),
                                 group.hazard ? " (hazard)" : "", group.exact ? "" : "at least ",
-                                counted_code(group.code, group.count), link.empty() ? "" : ": see " + link));
+                                group.count == 1 ? std::string("once") : fmt::format("{} times", group.count),
+                                link.empty() ? "" : ": " + link));
       const std::size_t shown = std::min(group.listed.size(), cap(kFindingsOfACode));
       for (const std::size_t i : std::span(group.listed).first(shown)) finding(verdict_.findings[i]);
       more(4, group.count - shown);
@@ -137,22 +144,27 @@ class CheckText {
 
   void seams() {
     if (verdict_.seams.empty()) return;
-    text_.heading(fmt::format("Seams: {} shared border{}: {}", verdict_.seams.size(),
-                              verdict_.seams.size() == 1 ? "" : "s",
-                              seam_totals_words(seam_totals(verdict_))));
+    text_.heading(
+        fmt::format("Seams: {} shared border{}: {} (gaps: height of the first mesh minus the second)",
+                    verdict_.seams.size(), verdict_.seams.size() == 1 ? "" : "s",
+                    seam_totals_words(seam_totals(verdict_))));
     for (const auto& [state, brief] :
          {std::pair{SeamState::open, kOpenSeams}, std::pair{SeamState::covered_by_skirt, kCoveredSeams},
           std::pair{SeamState::watertight, kWatertightSeams}}) {
+      const bool dull = state == SeamState::watertight && verdict_.seams.size() > kCoveredSeams;
+      const std::size_t most = dull && listing_ == Listing::brief ? 0 : cap(brief);
       std::size_t seen = 0;
       for (const SeamVerdict& one : verdict_.seams)
-        if (one.state == state && ++seen <= cap(brief)) seam(one);
-      more(2, seen - std::min(seen, cap(brief)), fmt::format(" {}", verdict::seam_state_name(state)));
+        if (one.state == state && ++seen <= most) seam(one);
+      more(2, seen - std::min(seen, most), fmt::format(" {}", verdict::seam_state_name(state)));
     }
-    if (const SeamVerdict* worst = worst_seam(verdict_))
+    const std::string advice = skirt_advice(verdict_);
+    const SeamVerdict* worst = worst_seam(verdict_);
+    if (worst != nullptr && advice.empty())
       text_.line(2, fmt::format("Worst pair: {} and {}, {} apart at {}.", mesh_name(verdict_, worst->mesh),
                                 mesh_name(verdict_, worst->other_mesh),
                                 metres(std::fabs(worst->largest_gap_m)), place_words(worst->largest_at)));
-    if (const std::string advice = skirt_advice(verdict_); !advice.empty()) text_.line(2, advice);
+    if (!advice.empty()) text_.line(2, advice);
   }
 
   void seam(const SeamVerdict& seam) {
@@ -163,7 +175,7 @@ class CheckText {
                       seam.level < 0 ? "" : fmt::format(", levels {} and {}", seam.level, seam.other_level)));
     if (seam.largest_gap_m != 0)
       text_.line(6,
-                 fmt::format("largest gap {} at {}; mean {}, of its size {}; {}, {}",
+                 fmt::format("largest gap {} at {}; mean {}, of the size {}; {}, {}",
                              signed_metres(seam.largest_gap_m), place_words(seam.largest_at),
                              signed_metres(seam.mean_gap_m), metres(seam.mean_abs_gap_m),
                              counted_code(oracle::FindingCode::crack, seam.cracks),
@@ -177,12 +189,11 @@ class CheckText {
       parts.push_back(fmt::format(
           "one step of the tiles' heights is {}{}", metres(seam.quantum_m),
           std::fabs(seam.largest_gap_m) <= seam.quantum_m ? ": the gap is no more than their rounding" : ""));
-    if (seam.least_skirt_m > 0)
-      parts.push_back(fmt::format("a skirt of {} on {} would suffice", metres(seam.least_skirt_m), first));
+    std::vector<std::string> skirts;
+    if (seam.least_skirt_m > 0) skirts.push_back(fmt::format("{} on {}", metres(seam.least_skirt_m), first));
     if (seam.least_skirt_other_m > 0)
-      parts.push_back(fmt::format("{} of {} on {}{}", seam.least_skirt_m > 0 ? "with one" : "a skirt",
-                                  metres(seam.least_skirt_other_m), second,
-                                  seam.least_skirt_m > 0 ? "" : " would suffice"));
+      skirts.push_back(fmt::format("{} on {}", metres(seam.least_skirt_other_m), second));
+    if (!skirts.empty()) parts.push_back(fmt::format("skirts that suffice: {}", fmt::join(skirts, ", ")));
     if (seam.normal_max_deg > 0)
       parts.push_back(fmt::format("normals differ by up to {}°", short_number(seam.normal_max_deg)));
     if (!parts.empty()) text_.line(6, fmt::format("{}", fmt::join(parts, "; ")), 0);
@@ -215,7 +226,7 @@ class CheckText {
   void reference(const verdict::ReferenceVerdict& reference) {
     const oracle::Likeness& likeness = reference.likeness;
     const auto interval = [](oracle::CertifiedDistance distance) {
-      return fmt::format("{} to {}", metres(distance.least_m), metres(distance.most_m));
+      return fmt::format("{} to {}", short_number(distance.least_m), metres(distance.most_m));
     };
     text_.heading(fmt::format("Against {}", reference.file));
     text_.line(2, fmt::format("Hausdorff distance, certified: {} (of the reference from the mesh {}, of the "
@@ -232,7 +243,7 @@ class CheckText {
     const Camera& camera = image.camera;
     text_.heading(fmt::format("Seen from {}, {} x {} pixels, {}° high", place_words(camera.position),
                               camera.width_px, camera.height_px, short_number(camera.fov_y_deg)));
-    text_.line(2, fmt::format("{} pixels see the mesh, {} of them a skirt's wall; {} findings are visible",
+    text_.line(2, fmt::format("{} pixels see the mesh, {} of them a skirt's wall; visible findings: {}",
                               image.mesh_px, image.skirt_px, image.visible_findings));
     if (!image.against_terrain) return;
     const oracle::PixelFigure& px = image.image.displacement_px;
@@ -264,7 +275,8 @@ class CheckText {
     };
     std::string line = "Shape: ";
     if (surfaces > 0)
-      line += fmt::format("{} slivers; least quality {}{} (1: equilateral), least angle {}°; ", slivers,
+      line += fmt::format("{} sliver{}, least quality {}{}, least angle {}°; ",
+                          slivers == 0 ? "no" : std::to_string(slivers), slivers == 1 ? "" : "s",
                           short_number(thinnest->shape.min_quality), named(thinnest),
                           short_number(thinnest->shape.least_angle_deg));
     line += fmt::format("shortest edge {}{}, median {}.", metres(shortest->shortest_edge_m), named(shortest),

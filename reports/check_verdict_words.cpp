@@ -54,33 +54,8 @@ std::string open_seams(const CheckVerdict& verdict) {
                      place_words(worst->largest_at));
 }
 
-/// "12 cracks, 1 hole, and more", worst first; the place of the very worst, unless a seam's was told.
-std::string code_words(const CheckVerdict& verdict, bool hazards, bool seams_told) {
-  std::vector<std::string> parts;
-  std::size_t left = 0;
-  std::string place;
-  for (const CodeGroup& group : group_findings(verdict)) {
-    const bool told = seams_told && group.between_meshes &&
-                      (group.code == FindingCode::crack || group.code == FindingCode::t_junction);
-    if (group.hazard != hazards || told) continue;
-    if (parts.size() == kHeadlineCodes) {
-      ++left;
-      continue;
-    }
-    parts.push_back((group.exact ? "" : "at least ") + counted_code(group.code, group.count));
-    if (place.empty() && !seams_told && !group.listed.empty()) {
-      const verdict::CheckFinding& worst = verdict.findings[group.listed.front()];
-      const std::string size = size_words(worst.finding);
-      const std::string name = verdict.meshes.size() > 1 ? " in " + whose(verdict, worst) : std::string();
-      place = fmt::format("{}{} at {}{}", group.count == 1 ? "" : "the worst ", size, place_words(worst.at),
-                          worst.mesh == verdict::kNoMesh ? "" : name);
-    }
-  }
-  if (parts.empty()) return {};
-  std::string out = fmt::format("{}", fmt::join(parts, ", "));
-  if (left > 0) out += fmt::format(" and {} more kinds", left);
-  if (!place.empty()) out += "; " + place;
-  return out;
+bool matches_otherwise(const CheckVerdict& verdict) {
+  return verdict.terrain && !verdict.terrain->better_match.empty();
 }
 
 std::string declared_headline(const CheckVerdict& verdict) {
@@ -101,6 +76,35 @@ std::string declared_headline(const CheckVerdict& verdict) {
   return {};
 }
 
+/// "12 cracks (the worst gap +4.2 m at 1, 2, 3), 1 hole": worst first; a place for the very worst, unless a
+/// seam's was told. What the headline says otherwise is left out.
+std::string code_words(const CheckVerdict& verdict, bool hazards, bool seams_told) {
+  std::vector<std::string> parts;
+  std::size_t left = 0;
+  for (const CodeGroup& group : group_findings(verdict)) {
+    const bool told = (seams_told && group.between_meshes &&
+                       (group.code == FindingCode::crack || group.code == FindingCode::t_junction)) ||
+                      (group.code == FindingCode::declared_error && !declared_headline(verdict).empty()) ||
+                      (group.code == FindingCode::misplaced && matches_otherwise(verdict));
+    if (group.hazard != hazards || told) continue;
+    if (parts.size() == kHeadlineCodes) {
+      ++left;
+      continue;
+    }
+    parts.push_back((group.exact ? "" : "at least ") + counted_code(group.code, group.count));
+    if (parts.size() > 1 || seams_told || group.listed.empty()) continue;
+    const verdict::CheckFinding& worst = verdict.findings[group.listed.front()];
+    const std::string size = size_words(worst.finding);
+    std::string where = fmt::format("{}{}at {}", group.count == 1 ? "" : "the worst ",
+                                    size.empty() ? "" : size + " ", place_words(worst.at));
+    if (verdict.meshes.size() > 1 && worst.mesh != verdict::kNoMesh) where += " in " + whose(verdict, worst);
+    parts.back() += fmt::format(" ({})", where);
+  }
+  std::string out = fmt::format("{}", fmt::join(parts, ", "));
+  if (left > 0) out += fmt::format(" and {} more kinds", left);
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> proved_sentences(const CheckVerdict& verdict) {
@@ -111,14 +115,16 @@ std::vector<std::string> proved_sentences(const CheckVerdict& verdict) {
     for (const CheckedMesh* mesh : surfaces) domains.insert(mesh->domain);
     const std::string domain =
         domains.size() == 1 && !domains.begin()->empty() ? *domains.begin() : "its domain";
+    const std::string where =
+        verdict.meshes.size() == 1 ? std::string() : fmt::format("in {}, ", which(verdict, surfaces));
     out.push_back(fmt::format(
-        "In {}, every point of {} is covered exactly once, edge to edge, at equal heights, decided exactly.",
-        which(verdict, surfaces), domain));
+        "{}every point of {} is covered exactly once, edge to edge, at equal heights, decided exactly.",
+        where, domain));
   }
   const auto objects = those(verdict, [](const CheckedMesh& m) { return !m.terrain && clean(m); });
   if (!objects.empty())
     out.push_back(
-        fmt::format("{}: every edge has at most two triangles, which agree on its direction, and every "
+        fmt::format("in {}, every edge has at most two triangles, which agree on its direction, and every "
                     "vertex one fan; no "
                     "triangle is without area, none is there twice, decided exactly.",
                     which(verdict, objects)));
@@ -127,12 +133,12 @@ std::vector<std::string> proved_sentences(const CheckVerdict& verdict) {
   });
   if (!apart.empty())
     out.push_back(
-        fmt::format("{}: no two triangles meet elsewhere than in a corner or an edge they share, decided "
+        fmt::format("in {}, no two triangles meet elsewhere than in a corner or an edge they share, decided "
                     "exactly.",
                     which(verdict, apart)));
   if (const SeamTotals totals = seam_totals(verdict); totals.watertight > 0)
     out.push_back(fmt::format(
-        "Along {} of {} shared borders the two meshes meet edge to edge at equal heights, decided exactly.",
+        "along {} of {} shared borders the two meshes meet edge to edge at equal heights, decided exactly.",
         totals.watertight, verdict.seams.size()));
   return out;
 }
@@ -145,7 +151,7 @@ std::string subject_words(const CheckVerdict& verdict) {
 
 std::string headline_words(const CheckVerdict& verdict) {
   std::vector<std::string> parts;
-  if (verdict.terrain && !verdict.terrain->better_match.empty())
+  if (matches_otherwise(verdict))
     parts.push_back(fmt::format("matches the DEM if {}", verdict.terrain->better_match));
   const bool open = seam_totals(verdict).open > 0;
   if (open) parts.push_back(open_seams(verdict));
@@ -170,14 +176,14 @@ std::string headline_words(const CheckVerdict& verdict) {
 
 std::vector<std::string> next_steps(const CheckVerdict& verdict) {
   std::vector<std::string> out;
-  if (verdict.terrain && !verdict.terrain->better_match.empty())
+  if (matches_otherwise(verdict))
     out.push_back(fmt::format(
         "First of all: the mesh matches {} if {}. Mend that, and check again: until then the error "
         "below says little.",
         verdict.terrain->file, verdict.terrain->better_match));
   const bool open = seam_totals(verdict).open > 0;
   for (const CodeGroup& group : group_findings(verdict)) {
-    if (group.code == FindingCode::misplaced && !out.empty()) continue;
+    if (group.code == FindingCode::misplaced && matches_otherwise(verdict)) continue;
     const std::string_view remedy = code_remedy(group.code);
     if (remedy.empty()) continue;
     out.push_back(fmt::format("{} ({}{}{})", remedy, group.hazard ? "hazard: " : "",
@@ -191,17 +197,18 @@ std::vector<std::string> next_steps(const CheckVerdict& verdict) {
 std::vector<DeclaredWords> declared_words(const verdict::TerrainVerdict& terrain) {
   if (!terrain.declared_m) return {};
   const auto said = [](bool holds) { return holds ? "it holds" : "it is broken"; };
-  return {{terrain.declared_at_samples,
+  const auto word = [](bool holds) { return holds ? "holds" : "broken"; };
+  return {{terrain.declared_at_samples, word(terrain.declared_at_samples),
            fmt::format("At the DEM's samples {}: the largest error there is {}, at {}.",
                        said(terrain.declared_at_samples), metres(terrain.samples_max_m),
                        place_words(terrain.samples_at))},
-          {terrain.declared_certain,
+          {terrain.declared_certain, word(terrain.declared_certain),
            fmt::format("Between samples, whichever way the DEM's cells are split, {}: {} is certain, at {}.",
                        said(terrain.declared_certain), metres(terrain.vertical_m.certain_max),
                        place_words(terrain.certain_at))},
-          {terrain.declared_everywhere,
+          {terrain.declared_everywhere, word(terrain.declared_everywhere),
            fmt::format(
-               "Against the diagonals that are taken for the DEM's {}: the largest error is {}, at {}.",
+               "Everywhere, with the DEM read as it is said here, {}: the largest error is {}, at {}.",
                said(terrain.declared_everywhere), metres(terrain.vertical_m.max), place_words(terrain.at))}};
 }
 
@@ -211,8 +218,9 @@ std::vector<DeclaredWords> declared_words(const verdict::ReferenceVerdict& refer
   const std::string interval = fmt::format("the largest distance lies between {} and {}",
                                            metres(distance.least_m), metres(distance.most_m));
   if (reference.declared_holds)
-    return {{true, fmt::format("The declared {} holds: {}.", metres(*reference.declared_m), interval)}};
-  return {{false,
+    return {
+        {true, "holds", fmt::format("The declared {} holds: {}.", metres(*reference.declared_m), interval)}};
+  return {{false, reference.declared_broken ? "broken" : "undecided",
            fmt::format("The declared {} {}: {}.", metres(*reference.declared_m),
                        reference.declared_broken ? "is broken" : "is neither proved nor broken", interval)}};
 }

@@ -89,17 +89,17 @@ const oracle::FindingDescription* catalogue_entry(FindingCode code) {
 /// How often a code was met, whatever the list holds; nothing if nobody counts it.
 std::optional<std::size_t> complete_count(const CheckVerdict& verdict, FindingCode code) {
   if (code == FindingCode::tile_encoding) return verdict.tile_faults;
+  if (code == FindingCode::t_junction) return std::nullopt;  // its count has T-vertices with a gap, too
   for (const FindingColumn& column : finding_columns())
     if (column.name == oracle::finding_name(code)) return verdict.conformity.*column.count;
   return std::nullopt;
 }
 
-/// Codes that were counted and are not in the capped list. A T-vertex with a gap counts as a T-junction, too,
-/// and is listed as a crack: T-junctions that are not listed may be none of their own.
+/// Codes that were counted and are not in the capped list.
 void add_unlisted(const CheckVerdict& verdict, std::vector<CodeGroup>& groups) {
   for (const oracle::FindingDescription& entry : oracle::finding_catalogue()) {
     const std::size_t count = complete_count(verdict, entry.code).value_or(0);
-    if (count == 0 || entry.code == FindingCode::t_junction) continue;
+    if (count == 0) continue;
     if (std::ranges::find(groups, entry.code, &CodeGroup::code) != groups.end()) continue;
     CodeGroup group;
     group.code = entry.code;
@@ -164,7 +164,7 @@ std::vector<CodeGroup> group_findings(const CheckVerdict& verdict) {
     group.exact = !capped || complete.has_value();
   }
   if (capped) add_unlisted(verdict, groups);
-  std::ranges::stable_partition(groups, [](const CodeGroup& group) { return !group.hazard; });
+  std::stable_partition(groups.begin(), groups.end(), [](const CodeGroup& group) { return !group.hazard; });
   return groups;
 }
 

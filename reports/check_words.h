@@ -66,7 +66,8 @@ std::string message_words(const verdict::CheckFinding& finding);
 /// A figure of a finding by which those of one code are compared.
 double size_of(const oracle::Finding& finding);
 
-/// What was proved, one sentence each; nothing is claimed that a finding contradicts.
+/// What was proved, one clause each, to stand behind "Proved:"; nothing is claimed that a finding
+/// contradicts.
 std::vector<std::string> proved_sentences(const verdict::CheckVerdict& verdict);
 /// "two.ply and 3 more".
 std::string subject_words(const verdict::CheckVerdict& verdict);
@@ -80,6 +81,7 @@ std::vector<std::string> next_steps(const verdict::CheckVerdict& verdict);
 /// the DEM's declared diagonals. Three sentences; empty if none was declared.
 struct DeclaredWords {
   bool holds = true;
+  std::string_view word;  ///< "holds", "broken", "undecided"
   std::string sentence;
 };
 std::vector<DeclaredWords> declared_words(const verdict::TerrainVerdict& terrain);

@@ -69,7 +69,8 @@ void draw_bar(Picture& picture, int top, Colour colour, std::optional<Rgb> beyon
     picture.fill(middle - thickness / 2, from, middle - thickness / 2 + thickness, bar_bottom + 3 * scale,
                  kInk);
     const int width = text_width(tick.label, scale);
-    const int x = std::clamp(middle - width / 2, 0, std::max(0, picture.width - width));
+    const int edge = 2 * scale;
+    const int x = std::clamp(middle - width / 2, edge, std::max(edge, picture.width - width - edge));
     if (x < free_from) continue;
     draw_text(picture, x, text_top, tick.label, scale, kInk);
     free_from = x + width + 4 * scale;

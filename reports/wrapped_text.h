@@ -24,7 +24,7 @@ class WrappedText {
       const std::string_view word = text.substr(from, end - from);
       from = end + 1;
       if (word.empty() && !first) continue;
-      if (!first && columns + 1 + columns_of(word) > kColumns) {
+      if (!first && !is_unit(word) && columns + 1 + columns_of(word) > kColumns - room_for_unit(text, from)) {
         out_ += now + '\n';
         now.assign(indent + hang, ' ');
         columns = indent + hang;
@@ -45,6 +45,17 @@ class WrappedText {
   [[nodiscard]] std::string take() { return std::move(out_); }
 
  private:
+  /// A unit stays with its number.
+  static bool is_unit(std::string_view word) {
+    while (!word.empty() && std::string_view(".,;:)").find(word.back()) != std::string_view::npos)
+      word.remove_suffix(1);
+    return word == "m" || word == "m²" || word == "px" || word == "%";
+  }
+  static std::size_t room_for_unit(std::string_view text, std::size_t from) {
+    if (from >= text.size()) return 0;
+    const std::string_view next = text.substr(from, std::min(text.find(' ', from), text.size()) - from);
+    return is_unit(next) ? 1 + columns_of(next) : 0;
+  }
   /// Every byte of UTF-8 but the continuing ones begins a character.
   static std::size_t columns_of(std::string_view word) {
     return static_cast<std::size_t>(
