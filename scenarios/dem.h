@@ -24,6 +24,7 @@ enum class DemHoles {
   refuse,     ///< a hole is an error
 };
 
+/// Which DEM to read, and what to make of its holes.
 struct DemRequest {
   std::filesystem::path file;  ///< anything that GDAL opens
   DemHoles holes = DemHoles::leave_out;
@@ -55,6 +56,7 @@ struct Dem {
   /// How it was read, in words: size, spacing, CRS, row order, what a sample is, units, holes.
   std::string description;
 
+  /// Where (column, row), in samples, stands in the CRS.
   [[nodiscard]] Vec2 to_crs(Vec2 sample) const {
     return {origin.x + sample.x * step_x, origin.y + sample.y * step_y};
   }

@@ -50,6 +50,7 @@ struct Placing {
 struct PlacingName {
   std::string_view name, summary;
 };
+/// In the order in which they are told.
 std::span<const PlacingName> placing_names();
 
 /// The placings that a DEM has, for a mesh with this box in plan, in the documented order. `fit` is last, and

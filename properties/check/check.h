@@ -47,6 +47,7 @@ struct CheckRequest {
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
+/// What is found, and what to show of it.
 struct CheckOutcome {
   verdict::CheckVerdict verdict;
   verdict::CheckPictures pictures;

@@ -77,8 +77,8 @@ TEST_F(List, HasEveryShelf) {
        {"approach", "retreat", "orbit", "skim", "spin", "nadir", "teleport", "hover", "poses"}},
       {"laws", {"conforming"}},
       {"oracles",
-       {"conformity", "vertical", "image", "economy", "stability", "shape", "soundness", "likeness",
-        "302 crack"}},
+       {"conformity", "vertical", "image", "economy", "stability", "shape", "soundness", "likeness", "border",
+        "seams", "placement", "tile_conformance", "302 crack"}},
   };
   const Outcome all = run({"list"});
   EXPECT_EQ(all.status, 0);
