@@ -144,10 +144,7 @@ void refuse_idle(const Suite& suite, const TomlTable& file) {
   }
 }
 
-}  // namespace
-
-Suite load_suite(const std::filesystem::path& path) {
-  const TomlTable file = read_toml(path);
+Suite read_suite(const TomlTable& file, const std::filesystem::path& path) {
   file.allow_only({"suite", "terrain", "mesh", "trajectory", "method", "gate"});
   Suite suite;
   suite.path = path;
@@ -223,6 +220,14 @@ Suite load_suite(const std::filesystem::path& path) {
     suite.gates = read_gates(gate->table(), methods);
   }
   return suite;
+}
+
+}  // namespace
+
+Suite load_suite(const std::filesystem::path& path) { return read_suite(read_toml(path), path); }
+
+Suite parse_suite(std::string_view text, const std::filesystem::path& path) {
+  return read_suite(parse_toml(text, path.string()), path);
 }
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct MethodSpec {
   Options options;
   std::vector<std::string> subjects{};      ///< terrains and meshes it flies over; empty: all that it takes
   std::vector<std::string> trajectories{};  ///< flights it takes part in; empty: all
+  friend bool operator==(const MethodSpec&, const MethodSpec&) = default;
 };
 
 /// One limit of `[gate]`: the figure's path in a run's summary ("crack", "displacement_px.p99") against a
@@ -36,6 +38,7 @@ struct GateSpec {
   double bound = 0;
   bool times_tau = false;  ///< bound is a multiple of the run's threshold
   std::string text;        ///< as written, for reports: "displacement_px.p99 <= 1 tau"
+  friend bool operator==(const GateSpec&, const GateSpec&) = default;
 };
 
 /// A suite file, read and checked.
@@ -53,11 +56,14 @@ struct Suite {
   std::vector<TrajectorySpec> trajectories;
   std::vector<MethodSpec> methods;
   std::vector<GateSpec> gates;
+  friend bool operator==(const Suite&, const Suite&) = default;
 };
 
 /// Reads a suite file (TOML, CONTRACT "Suite file"). Throws InputError naming file, line and the nearest
 /// known key for an unknown key, a wrong type, a duplicate id, a threshold that is not positive and finite,
 /// an empty list.
 Suite load_suite(const std::filesystem::path& path);
+/// The same from memory; `path` stands for the file in complaints, and paths inside are relative to it.
+Suite parse_suite(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace plumbline

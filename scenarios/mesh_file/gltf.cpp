@@ -198,13 +198,14 @@ class Reader {
     // Two normals for one vertex.
     if (its_normal != normal) all_normals_ = false;
 
+    const std::size_t made = mode == kTriangles ? 1 : 3;  // corners from one of a strip or fan
     std::vector<std::uint32_t> corners;
     if (const Json* indices = doc_.find(entry, "indices", place)) {
       const auto a = doc_.accessor(doc_.whole(*indices, place + ".indices"), place + ".indices");
       if (a.components != 1 || a.normalized ||
           (a.component != 5121 && a.component != 5123 && a.component != 5125))
         doc_.fail(a.place, "cannot hold indices: these are unsigned scalars");
-      spend(a.count);
+      spend(made * a.count);
       corners.reserve(a.count);
       for (std::size_t k = 0; k < a.count; ++k) {
         const double index = a.value(k, 0);
@@ -213,7 +214,7 @@ class Reader {
         corners.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(index)));
       }
     } else {
-      spend(vertices);
+      spend(made * vertices);
       for (std::size_t k = 0; k < vertices; ++k) corners.push_back(static_cast<std::uint32_t>(base + k));
     }
     if (mode == kTriangles && corners.size() % 3 != 0)
@@ -288,8 +289,8 @@ class Reader {
   /// A mesh may be shown by many nodes, data by many meshes: that must not make little of a file into any
   /// amount of memory.
   void spend(std::size_t elements) {
-    constexpr std::size_t kMostReuse =
-        64;  // vertices and corners per byte read; an instrument's screws take < 1
+    // Vertices and corners per byte read: less than a kilobyte of memory. An instrument's screws take < 1.
+    constexpr std::size_t kMostReuse = 16;
     spent_ += elements;
     if (spent_ / kMostReuse > doc_.bytes_read())
       doc_.fail("the scene",

@@ -135,7 +135,10 @@ std::uint64_t GltfDocument::whole(const Json& value, std::string_view place) con
   constexpr double kMost = 9007199254740992.0;  // 2^53: whole numbers of JSON's doubles end here
   const double number = value.is_number() ? value.get<double>() : -1;
   if (!(number >= 0 && number <= kMost) || std::floor(number) != number)
-    fail(place, fmt::format("{} is not a whole number", one_line(value.dump(-1, ' ', true), 40)));
+    // Printing a nest of lists would take the stack that reading it did not.
+    fail(place,
+         fmt::format("{} is not a whole number",
+                     value.is_structured() ? value.type_name() : one_line(value.dump(-1, ' ', true), 40)));
   return static_cast<std::uint64_t>(number);
 }
 

@@ -35,30 +35,45 @@ std::vector<Vec2> flattened(const std::vector<Vec3>& p) {
   return flat;
 }
 
+/// Always the first ear that there is. A triangle of neighbours is searched once for a corner inside, and
+/// from there on when that one is gone: quadratic in corners, however the polygon winds.
 void clip_ears(const std::vector<Vec2>& flat, std::vector<std::array<std::size_t, 3>>& out) {
   std::vector<std::size_t> left(flat.size());
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
+  constexpr std::size_t kNever = static_cast<std::size_t>(-1);
+  std::vector<std::uint8_t> gone(flat.size(), 0);
+  std::vector<std::size_t> inside(flat.size(),
+                                  0);  // by tip: no corner before this one is; kNever: no left turn
   const auto is_ear = [&](std::size_t k) {
     const std::size_t n = left.size(), i = left[(k + n - 1) % n], j = left[k], l = left[(k + 1) % n];
+    std::size_t& m = inside[j];
+    if (m == kNever) return false;
     const Vec2 a = flat[i], b = flat[j], c = flat[l];
-    if (!(turn(a, b, c) > 0)) return false;
-    return std::none_of(left.begin(), left.end(), [&](std::size_t m) {
-      return m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 && turn(b, c, flat[m]) >= 0 &&
-             turn(c, a, flat[m]) >= 0;
-    });
+    if (m == 0 && !(turn(a, b, c) > 0)) {
+      m = kNever;
+      return false;
+    }
+    for (; m < flat.size(); ++m) {
+      if (gone[m] == 0 && m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 &&
+          turn(b, c, flat[m]) >= 0 && turn(c, a, flat[m]) >= 0)
+        return false;
+    }
+    return true;
   };
   while (left.size() > 3) {
     std::size_t k = 0;
     while (k < left.size() && !is_ear(k)) ++k;
     if (k == left.size()) k = 1;  // it crosses itself or is flat: any corner goes, and the search ends
-    const std::size_t n = left.size();
-    out.push_back({left[(k + n - 1) % n], left[k], left[(k + 1) % n]});
+    const std::size_t n = left.size(), before = left[(k + n - 1) % n], after = left[(k + 1) % n];
+    out.push_back({before, left[k], after});
+    gone[left[k]] = 1;
+    inside[before] = inside[after] = 0;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
   }
   out.push_back({left[0], left[1], left[2]});
 }
 
-// A corner of an ear search costs the square of the polygon; this many are still quick.
+// Ears cost the square of the polygon; this many are still quick.
 constexpr std::size_t kLongestConcave = 4096;
 
 }  // namespace

@@ -78,7 +78,9 @@ class LayerReader {
     const double number = value.is_number() ? value.get<double>() : -1;
     if (!(number >= 0 && number <= 4294967295.0) || std::floor(number) != number)
       fail(place, fmt::format("{} is not a whole number from 0 to 4294967295",
-                              one_line(value.dump(-1, ' ', true, Json::error_handler_t::replace), 40)));
+                              value.is_structured()  // a nest of lists would take all stack to print
+                                  ? value.type_name()
+                                  : one_line(value.dump(-1, ' ', true, Json::error_handler_t::replace), 40)));
     return number;
   }
 
