@@ -49,6 +49,7 @@ int run_program(int argc, char** argv) {
   add_list(program, status);
   add_tables(program, status);
   add_selftest(program, status);
+  add_compare(program, status);
 
   std::vector<std::string> commands;
   for (const CLI::App* command : program.get_subcommands({})) commands.push_back(command->get_name());
