@@ -175,12 +175,16 @@ std::string results_json(const verdict::SuiteVerdict& verdict) {
                              {"object_radius_m", mesh.object_radius_m}});
   }
   for (const verdict::RunVerdict& run : verdict.runs) out["runs"].push_back(run_json(run));
-  for (const verdict::GateVerdict& gate : verdict.gates)
-    out["gates"].push_back({{"name", gate.name},
-                            {"run", gate.run},
-                            {"limit", gate.limit},
-                            {"value", gate.value},
-                            {"pass", gate.pass}});
+  for (const verdict::GateVerdict& gate : verdict.gates) {
+    Json one = {{"name", gate.name},
+                {"run", gate.run},
+                {"limit", gate.limit},
+                {"value", gate.value},
+                {"pass", gate.pass}};
+    if (gate.expected) one["expected"] = true;  // absent: a gate that asks for what is promised
+    if (!gate.note.empty()) one["note"] = gate.note;
+    out["gates"].push_back(std::move(one));
+  }
   if (!verdict.selftest.kinds.empty()) out["selftest"] = selftest_object(verdict.selftest);
   return json_text(out, 3);
 }

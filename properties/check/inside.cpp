@@ -125,7 +125,7 @@ class Inside {
       subject_.held_to_rectangle = true;
       facts.domain = "the rectangle of its box, since each corner has a vertex";
     } else {
-      report = oracle::check_conformity(surface);
+      report = oracle::check_conformity_without_outline(surface);
       facts.domain = "its own outline";
     }
     drop_feet(report);

@@ -43,14 +43,15 @@ TEST_F(Help, NamesEveryCommand) {
   const Outcome outcome = run({"--help"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"run", "fuzz", "replay", "list", "tables", "selftest"})
+  for (const char* command : {"run", "fuzz", "replay", "list", "tables", "selftest", "compare"})
     EXPECT_THAT(outcome.out, HasSubstr(command));
 }
 
 TEST_F(Help, OfACommandNamesItsOptions) {
   const Outcome outcome = run({"run", "--help"});
   EXPECT_EQ(outcome.status, 0);
-  for (const char* option : {"--out", "--jobs", "--methods", "--dump-meshes", "--quiet"}) {
+  for (const char* option :
+       {"--out", "--jobs", "--methods", "--dump-meshes", "--expected", "--write-expected", "--quiet"}) {
     EXPECT_THAT(outcome.out, HasSubstr(option));
   }
 }
