@@ -7,7 +7,7 @@ import Martini from '@mapbox/martini';
 import Delatin from 'delatin';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { Heights, readJacksboro, writePly, writeWindowVrt } from './terrain.mjs';
+import { Heights, kEastM, kNorthM, readJacksboro, writePly, writeWindowVrt } from './terrain.mjs';
 // Not among the package's exports, which decode a picture first; this is what they hand it to.
 import { makeTerrainMeshFromImage } from './node_modules/@loaders.gl/terrain/dist/lib/parse-terrain.js';
 
@@ -18,8 +18,10 @@ const whole = readJacksboro(npz);
 const kStep = 128, kColumns = 3, kRows = 2, kBounds = [5, 20];
 
 mkdirSync(out, { recursive: true });
-writeWindowVrt(join(out, 'square.vrt'), whole, dem, 0, 0, 257, 257);
-writeWindowVrt(join(out, 'tiles.vrt'), whole, dem, 0, 0, kColumns * kStep + 1, kRows * kStep + 1);
+writeWindowVrt(join(out, 'square.vrt'), whole, dem, 257, 257);
+for (const [name, metres] of [['tiles.vrt', false], ['tiles_metres.vrt', true]]) {
+  writeWindowVrt(join(out, name), whole, dem, kColumns * kStep + 1, kRows * kStep + 1, metres);
+}
 
 /// Vertices as both libraries give them: column and row, row 0 northmost, so y runs south.
 const raised = (coords, heights, column = 0, row = 0) => {
@@ -86,8 +88,9 @@ function picture(tile) {
 for (const tesselator of ['martini', 'delatin']) {
   for (const skirtHeight of [0, 50]) {
     for (const tile of tiles) {
-      // Bounds run as maps do: y north. Samples and columns count from the north-west corner of all tiles.
-      const bounds = [tile.column, -(tile.row + kStep), tile.column + kStep, -tile.row];
+      // Metres from the south-west sample of all tiles; y runs north, as on maps.
+      const south = kRows * kStep - tile.row - kStep;
+      const bounds = [tile.column * kEastM, south * kNorthM, (tile.column + kStep) * kEastM, (south + kStep) * kNorthM];
       const mesh = makeTerrainMeshFromImage(
         picture(tile), { meshMaxError: 5, bounds, elevationDecoder: kTerrarium, tesselator, skirtHeight });
       writePly(join(out, 'loaders_gl', `${tesselator}_skirt_${skirtHeight}m`, tile.name),

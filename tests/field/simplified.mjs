@@ -7,16 +7,16 @@ import { MeshoptSimplifier } from 'meshoptimizer';
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { gridMesh, readJacksboro, writePly } from './terrain.mjs';
+import { gridMesh, kEastM, kNorthM, readJacksboro, writePly } from './terrain.mjs';
 
 const [out, npz, debian] = process.argv.slice(2);
 if (!debian) throw new Error('usage: node simplified.mjs OUT HEIGHTS.npz SIMPLIFY');
 
 const whole = readJacksboro(npz);
-// The spacing of the heights in metres, near enough; as the library wants them: floats, y north.
-const kEast = 74.4, kNorth = 92.6;
+const kStep = 128, kColumns = 3, kRows = 2, kShare = 0.1;
+// Metres from the south-west sample, y north: floats hold them exactly, as the library wants floats.
 const place = (heights, column, row) => (c, r) =>
-  [(column + c) * kEast, -(row + r) * kNorth, heights.at(c, r)].map(Math.fround);
+  [(column + c) * kEastM, (kRows * kStep - row - r) * kNorthM, heights.at(c, r)];
 
 await MeshoptSimplifier.ready;
 
@@ -52,7 +52,6 @@ function used(xyz, kept) {
   return { xyz: points, triangles };
 }
 
-const kStep = 128, kColumns = 3, kRows = 2, kShare = 0.1;
 mkdirSync(out, { recursive: true });
 const all = whole.window(0, 0, kColumns * kStep + 1, kRows * kStep + 1);
 const full = gridMesh(all.columns, all.rows, place(all, 0, 0));

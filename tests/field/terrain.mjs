@@ -83,21 +83,27 @@ export function writePly(path, xyz, triangles) {
   writeFileSync(path, Buffer.concat([header, body]));
 }
 
-/// A window of a DEM as a DEM: nothing is resampled, the georeference moves along.
-export function writeWindowVrt(path, of, source, column, row, columns, rows) {
+/// The spacing of the heights in metres, near enough, and exact in floats: for programs that think in metres.
+export const kEastM = 74.5, kNorthM = 92.5;
+
+/// The north-west window of a DEM as a DEM: nothing is resampled. As georeferenced as the whole is; or in metres
+/// from its south-west sample.
+export function writeWindowVrt(path, of, source, columns, rows, metres = false) {
   const step = 1 / 1200;
-  const west = -84.41375 + column * step, north = 36.73291666666667 - row * step;
+  const georeference = metres
+    ? `<GeoTransform>${-kEastM / 2}, ${kEastM}, 0, ${(rows - 0.5) * kNorthM}, 0, ${-kNorthM}</GeoTransform>`
+    : `<SRS>EPSG:4326</SRS>
+  <GeoTransform>-84.41375, ${step}, 0, 36.73291666666667, 0, ${-step}</GeoTransform>`;
   mkdirSync(dirname(path), { recursive: true });
   writeFileSync(path, `<VRTDataset rasterXSize="${columns}" rasterYSize="${rows}">
-  <SRS>EPSG:4326</SRS>
-  <GeoTransform>${west}, ${step}, 0, ${north}, 0, ${-step}</GeoTransform>
+  ${georeference}
   <VRTRasterBand dataType="Int16" band="1">
     <UnitType>m</UnitType>
     <SimpleSource>
       <SourceFilename relativeToVRT="1">${relative(dirname(path), source)}</SourceFilename>
       <SourceBand>1</SourceBand>
       <SourceProperties RasterXSize="${of.columns}" RasterYSize="${of.rows}" DataType="Int16"/>
-      <SrcRect xOff="${column}" yOff="${row}" xSize="${columns}" ySize="${rows}"/>
+      <SrcRect xOff="0" yOff="0" xSize="${columns}" ySize="${rows}"/>
       <DstRect xOff="0" yOff="0" xSize="${columns}" ySize="${rows}"/>
     </SimpleSource>
   </VRTRasterBand>
