@@ -57,12 +57,12 @@ struct MethodDescription {
   std::string title;
   std::string citation{};  ///< authors, title, venue, year; empty: unpublished
   std::string section{};   ///< where in METHODS / the paper: "M4", "reference"; may be empty
-  std::vector<VariantDescription> variants;  ///< first: the published default, name ""
+  std::vector<VariantDescription> variants{};  ///< first: the published default, name ""
   std::vector<OptionDescription> options{};
   std::vector<ClaimDescription> claims{};
   bool takes_objects = false;  ///< general meshes too (LodMethod::prepare_objects), not terrains alone
   /// `variant` is one of the names above; options are checked against `options` before the call.
-  std::function<std::unique_ptr<LodMethod>(std::string_view variant, const Options& options)> make;
+  std::function<std::unique_ptr<LodMethod>(std::string_view variant, const Options& options)> make{};
 };
 
 /// The methods that plumbline brings along, in the order of the plumbline_add_method lines.

@@ -23,7 +23,7 @@ namespace {
 
 struct CheckArguments {
   std::vector<std::string> meshes;
-  std::string terrain, placing = "guess", holes = "crop", reference, declared, camera, up = "guess",
+  std::string terrain, placing = "guess", holes = "leave_out", reference, declared, camera, up = "guess",
                        kind = "guess", unit = "1", skirt, json, sarif, report;
   double tau_px = 1;
   int jobs = 0;
@@ -62,9 +62,11 @@ CheckRequest request_of(const CheckArguments& arguments) {
   for (const std::string& mesh : arguments.meshes) request.inputs.emplace_back(mesh);
   request.terrain = arguments.terrain;
   request.placing = arguments.placing;
-  request.holes = chosen<HolePolicy>(
-      "--holes", arguments.holes,
-      {{"crop", HolePolicy::crop}, {"fill", HolePolicy::fill}, {"refuse", HolePolicy::refuse}});
+  request.holes = chosen<DemHoles>("--holes", arguments.holes,
+                                   {{"leave_out", DemHoles::leave_out},
+                                    {"crop", DemHoles::crop},
+                                    {"fill", DemHoles::fill},
+                                    {"refuse", DemHoles::refuse}});
   request.reference = arguments.reference;
   if (!arguments.declared.empty()) {
     const double declared = number("--declared", arguments.declared);
@@ -109,7 +111,7 @@ std::string repeat_line(const CheckArguments& arguments) {
   };
   option("--terrain", arguments.terrain);
   option("--placing", arguments.placing, "guess");
-  option("--holes", arguments.holes, "crop");
+  option("--holes", arguments.holes, "leave_out");
   option("--reference", arguments.reference);
   option("--declared", arguments.declared);
   option("--camera", arguments.camera);
@@ -157,10 +159,13 @@ void add_check(CLI::App& program, int& status) {
                       "the DEM that the meshes stand for (anything GDAL opens)");
   command
       ->add_option("--placing", arguments->placing,
-                   "how the meshes lie over the DEM: guess, local (metres from its south-west sample), crs, "
-                   "samples (column, row from the north), samples_up, samples_scaled, centred, fit")
+                   "how the meshes lie over the DEM: guess, crs, crs_units, local (metres from its "
+                   "south-west sample), samples (column, row from the north), samples_up, samples_scaled, "
+                   "centred, fit")
       ->capture_default_str();
-  command->add_option("--holes", arguments->holes, "samples of the DEM without data: crop, fill, refuse")
+  command
+      ->add_option("--holes", arguments->holes,
+                   "samples of the DEM without data: leave_out, crop, fill, refuse")
       ->capture_default_str();
   command->add_option("--reference", arguments->reference,
                       "a mesh that the one given stands for: certified distances in space");

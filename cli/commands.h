@@ -27,5 +27,6 @@ void add_replay(CLI::App& program, int& status);
 void add_list(CLI::App& program, int& status);
 void add_tables(CLI::App& program, int& status);
 void add_selftest(CLI::App& program, int& status);
+void add_compare(CLI::App& program, int& status);
 
 }  // namespace plumbline::cli

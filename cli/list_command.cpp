@@ -54,7 +54,7 @@ void list_laws() {
   for (const properties::Law& law : properties::all_laws()) line(law.id, law.statement, law.source);
 }
 
-/// In the order of ORACLES; each is named after its header in oracle/.
+/// In the order of ORACLES, then what `check` asks besides; each is named after its header in oracle/.
 constexpr struct Oracle {
   const char *name, *judges, *source;
 } kOracles[] = {
@@ -68,6 +68,11 @@ constexpr struct Oracle {
     {"soundness", "objects: indices, finite coordinates, triangles without area, manifold edges; exact",
      "ORACLES O7"},
     {"likeness", "objects: self-intersections (exact), certified distances in space, normals", "ORACLES O7"},
+    {"border", "where a mesh ends, exactly as its file has it, and the skirts that hang there", "check"},
+    {"seams", "between two meshes: cracks and T-junctions on the common border, exact, and what skirts hide",
+     "check"},
+    {"placement", "a mesh that lies flipped, transposed, shifted or scaled over its DEM", "check"},
+    {"tile_conformance", "one quantized-mesh tile against its format", "check"},
 };
 
 void list_oracles() {

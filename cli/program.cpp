@@ -49,6 +49,7 @@ int obey(int argc, char** argv) {
   int status = kPass;
   add_run(program, status);
   add_check(program, status);
+  add_compare(program, status);
   add_fuzz(program, status);
   add_replay(program, status);
   add_list(program, status);

@@ -294,6 +294,6 @@ ConformityReport check_conformity(const Mesh& mesh, const PlanDomain& domain) {
   return Check(mesh, domain).run();
 }
 
-ConformityReport check_conformity(const Mesh& mesh) { return Check(mesh, {}, true).run(); }
+ConformityReport check_conformity_without_outline(const Mesh& mesh) { return Check(mesh, {}, true).run(); }
 
 }  // namespace plumbline::oracle

@@ -39,6 +39,6 @@ ConformityReport check_conformity(const Mesh& mesh, const PlanDomain& domain);
 
 /// The same for a mesh that promises no outline: wherever it ends, it ends. Holes are regions that its cover
 /// encloses; there is no finding `outline`.
-ConformityReport check_conformity(const Mesh& mesh);
+ConformityReport check_conformity_without_outline(const Mesh& mesh);
 
 }  // namespace plumbline::oracle

@@ -53,6 +53,7 @@ struct TerrainSource {
   FitRule fit = FitRule::resample;
   std::filesystem::path constraints;  ///< file of road polylines (roads.h); empty: none
   bool generated_roads = false;       ///< instead: a network of the terrain's seed
+  friend bool operator==(const TerrainSource&, const TerrainSource&) = default;
 };
 
 /// Reads or generates a terrain; the same bytes on every machine.

@@ -15,6 +15,7 @@ namespace plumbline {
 struct CameraPose {
   Vec3 position;
   Vec3 look_at;
+  friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
 /// What is flown over, or around, and judged.
@@ -45,6 +46,7 @@ struct TrajectorySpec {
   int hold_frames = 0;     ///< teleport, two_ways: frames that a pose is held (4; 3)
   std::uint64_t seed = 1;  ///< teleport, hover
   std::vector<CameraPose> poses;
+  friend bool operator==(const TrajectorySpec&, const TrajectorySpec&) = default;
 };
 
 /// The cameras of a flight over a terrain, one a frame; the same bits on every machine. Throws InputError for

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,12 @@ void write_case(const std::filesystem::path& path, const Case& c);
 Case load_case(const std::filesystem::path& path);
 /// The same from memory; `name` stands for the file in complaints.
 Case parse_case(std::string_view text, const std::string& name);
+/// Which laws and methods a case may name: throws InputError for any other.
+struct CaseNames {
+  std::function<void(const std::string&id)> law, method;
+};
+/// The same with other names than the registries'.
+Case parse_case(std::string_view text, const std::string& name, const CaseNames& names);
 
 /// What a case does when it is run again.
 struct ReplayResult {

@@ -133,7 +133,7 @@ class Between {
       ++meshes;
     }
     if (meshes < 2 || triangles == 0) return;
-    const oracle::ConformityReport report = oracle::check_conformity(all);
+    const oracle::ConformityReport report = oracle::check_conformity_without_outline(all);
     const auto owner = [&](const std::vector<std::size_t>& starts, std::size_t index) {
       return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), index) -
                                       starts.begin()) -

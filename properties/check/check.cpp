@@ -115,7 +115,7 @@ CheckOutcome check(const CheckRequest& request) {
   CheckOutcome out;
   std::vector<verdict::CheckFinding> more = judge_against(exam, out.pictures);
   gather(exam, std::move(more));
-  for (Subject& subject : exam.subjects) exam.verdict.meshes.push_back(subject.facts);
+  for (checking::Subject& subject : exam.subjects) exam.verdict.meshes.push_back(subject.facts);
   if (request.pictures) out.pictures.spots = make_spots(exam);
   out.verdict = std::move(exam.verdict);
   return out;

@@ -25,6 +25,8 @@ struct Frame {
   enum class Up { x, y, z };
   Up up = Up::z;
   double unit_m = 1;  ///< metres per unit
+  /// Every mesh runs clockwise seen from above: triangles were turned over, to be judged at all.
+  bool turned = false;
 
   [[nodiscard]] Vec3 from_file(Vec3 p) const {
     if (up == Up::y) return {p.x, -p.z, p.y};

@@ -125,7 +125,7 @@ class Inside {
       subject_.held_to_rectangle = true;
       facts.domain = "the rectangle of its box, since each corner has a vertex";
     } else {
-      report = oracle::check_conformity(surface);
+      report = oracle::check_conformity_without_outline(surface);
       facts.domain = "its own outline";
     }
     drop_feet(report);
@@ -189,6 +189,7 @@ class Inside {
     const auto pairs = oracle::self_intersections(subject_.mesh);
     if (!pairs) return;
     facts.self_intersections = pairs->size();
+    facts.self_intersections_judged = true;
     for (const auto& pair : *pairs) {
       Finding finding;
       finding.code = FindingCode::self_intersection;

@@ -99,6 +99,22 @@ Inputs sort_out(const CheckRequest& request, std::vector<std::string>& notes) {
   return out;
 }
 
+/// A surface of which most runs clockwise seen from above has y running south (as rows of images do), or is
+/// wound the wrong way round as a whole. Which, the mesh alone does not tell; a triangle each would say it
+/// two million times.
+void turn_over(Examination& exam, const std::vector<Subject*>& meshes) {
+  Facing all;
+  for (const Subject* subject : meshes) all.add(subject->mesh);
+  if (!(all.sum.z < -kTerrainShare * all.size.z)) return;
+  exam.frame.turned = true;
+  for (Subject* subject : meshes) {
+    for (auto& t : subject->mesh.triangles) std::swap(t[1], t[2]);
+  }
+  exam.verdict.notes.emplace_back(
+      "every triangle runs clockwise in x and y: right if y runs south, as rows of images do; otherwise "
+      "back-face culling hides the whole mesh. They were judged turned over");
+}
+
 void settle_frame(Examination& exam) {
   std::vector<Subject*> meshes;
   for (Subject& subject : exam.subjects) {
@@ -134,24 +150,22 @@ void settle_frame(Examination& exam) {
       break;
   }
   for (Subject* subject : meshes) {
+    for (Vec3& p : subject->mesh.positions) p = exam.frame.from_file(p);
+    for (Vec3& n : subject->normals) n = exam.frame.from_file(n);
+  }
+  turn_over(exam, meshes);
+  for (Subject* subject : meshes) {
+    // Against the axis that holds for all, not the one that would suit this mesh best.
     Facing own;
     own.add(subject->mesh);
-    Guess each = guess(own);
-    // Against the axis that holds for all, not the one that would suit this mesh best.
-    const std::array<double, 3> sum{std::fabs(own.sum.x), std::fabs(own.sum.y), std::fabs(own.sum.z)};
-    const std::array<double, 3> size{own.size.x, own.size.y, own.size.z};
-    const std::size_t axis = exam.frame.up == Frame::Up::x ? 0 : exam.frame.up == Frame::Up::y ? 1 : 2;
-    each.terrain = sum[axis] > kTerrainShare * size[axis];
     subject->facts.terrain = request.kind == CheckRequest::Kind::guess
-                                 ? each.terrain
+                                 ? std::fabs(own.sum.z) > kTerrainShare * own.size.z
                                  : request.kind == CheckRequest::Kind::terrain;
     if (request.kind == CheckRequest::Kind::guess && !subject->facts.terrain)
       verdict.notes.push_back(
           fmt::format("{} is taken for an object in space, since its faces cancel in "
                       "every direction; --kind terrain says otherwise",
                       subject->facts.file));
-    for (Vec3& p : subject->mesh.positions) p = exam.frame.from_file(p);
-    for (Vec3& n : subject->normals) n = exam.frame.from_file(n);
   }
   verdict.frame = fmt::format(
       "the files' own coordinates, {} up{}", axis_name(exam.frame.up),

@@ -50,7 +50,17 @@ struct LawOutcome {
   std::vector<Part> parts;
 };
 /// As the enumerator is spelled.
-std::string_view outcome_name(LawOutcome::Kind kind);
+constexpr std::string_view outcome_name(LawOutcome::Kind kind) {
+  switch (kind) {
+    case LawOutcome::Kind::held:
+      return "held";
+    case LawOutcome::Kind::vacuous:
+      return "vacuous";
+    case LawOutcome::Kind::violated:
+      return "violated";
+  }
+  return "unknown";
+}
 
 /// A law: what must hold for every terrain, camera and threshold, for the methods that promise it.
 struct Law {

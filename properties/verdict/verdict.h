@@ -201,6 +201,12 @@ struct GateVerdict {
   std::string limit;  ///< "<= 1 tau (2 px)"
   double value = 0;
   bool pass = false;
+  std::string figure{};   ///< path of what is limited
+  bool expected = false;  ///< an entry of an expectation file, in place of the gates on the figure
+  std::string why{};      ///< of an expectation: its reason
+  std::string note{};     ///< of one that does not hold: what was expected, what was found, what to do
+  /// Of an expectation: the gates that it stands in for hold, too, so it could go.
+  bool needless = false;
 };
 
 /// All that results.json tells.

@@ -43,14 +43,15 @@ TEST_F(Help, NamesEveryCommand) {
   const Outcome outcome = run({"--help"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* command : {"run", "fuzz", "replay", "list", "tables", "selftest"})
+  for (const char* command : {"run", "fuzz", "replay", "list", "tables", "selftest", "compare"})
     EXPECT_THAT(outcome.out, HasSubstr(command));
 }
 
 TEST_F(Help, OfACommandNamesItsOptions) {
   const Outcome outcome = run({"run", "--help"});
   EXPECT_EQ(outcome.status, 0);
-  for (const char* option : {"--out", "--jobs", "--methods", "--dump-meshes", "--quiet"}) {
+  for (const char* option :
+       {"--out", "--jobs", "--methods", "--dump-meshes", "--expected", "--write-expected", "--quiet"}) {
     EXPECT_THAT(outcome.out, HasSubstr(option));
   }
 }
@@ -77,8 +78,8 @@ TEST_F(List, HasEveryShelf) {
        {"approach", "retreat", "orbit", "skim", "spin", "nadir", "teleport", "hover", "poses"}},
       {"laws", {"conforming"}},
       {"oracles",
-       {"conformity", "vertical", "image", "economy", "stability", "shape", "soundness", "likeness",
-        "302 crack"}},
+       {"conformity", "vertical", "image", "economy", "stability", "shape", "soundness", "likeness", "border",
+        "seams", "placement", "tile_conformance", "302 crack"}},
   };
   const Outcome all = run({"list"});
   EXPECT_EQ(all.status, 0);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// uniform_grid: every 2ᵏ-th sample, with the largest k whose error in pixels is within the threshold.
+// line_grid: whole rows and columns of the terrain, dense where it is rough and the camera is near.
 #include <algorithm>
 #include <cmath>
 
@@ -9,51 +8,52 @@
 
 using namespace plumbline;
 
-class UniformGrid final : public LodMethod {
+class LineGrid final : public LodMethod {
  public:
-  void prepare(const Terrain& terrain) override {
-    // Steps that divide both sides: coarse diagonals lie on fine ones, so the error is largest at a sample.
-    const int east = terrain.columns - 1, north = terrain.rows - 1;
-    for (int step = 1; east % step == 0 && north % step == 0; step *= 2) {
-      Terrain coarse{"", east / step + 1, north / step + 1, step * terrain.spacing_m, {}};
-      LodFrame& frame = frames_.emplace_back();
-      for (int j = 0; j <= north; j += step) {
-        for (int i = 0; i <= east; i += step) {
-          coarse.heights_m.push_back(terrain.z(i, j));
-          frame.vertex_keys.push_back(terrain.index(i, j));
-        }
-      }
-      frame.mesh = reference_mesh(coarse);
-      frame.domain = full_domain(terrain);
-      double error_m = step == 1 ? 0 : errors_m_.back();  // never falls with k: no larger τ draws more
-      for (const Vec3& p : reference_mesh(terrain).positions)
-        error_m = std::max(error_m, std::abs(p.z - coarse.surface_height_m(p.x, p.y)));
-      errors_m_.push_back(error_m);
+  void prepare(const Terrain& t) override {
+    terrain_ = &t;
+    for (const bool row : {false, true}) {
+      const auto z = [&](int k, int n) { return row ? t.z(n, k) : t.z(k, n); };
+      const int lines = row ? t.rows : t.columns, samples = row ? t.columns : t.rows;
+      std::vector<double>& m = errors_m_[row];
+      m.assign(lines, HUGE_VAL);  // the rim stays; line k: how far off the middle of lines k ± s
+      for (int k = 1, s = 1; k + s < lines; ++k, s = k & -k)
+        for (int n = 0; n < samples; ++n)
+          m[k] = std::max(n > 0 ? m[k] : 0, std::abs(z(k, n) - (z(k - s, n) + z(k + s, n)) / 2));
     }
-    highest_m_ = terrain.highest_m();
   }
   void update(const Camera& camera, LodFrame& frame) override {
-    const double distance_m = camera.position.z - highest_m_;  // or more, to all of the ground
-    std::size_t k = errors_m_.size() - 1;
-    while (k > 0 && camera.kappa_px * errors_m_[k] > threshold_px() * distance_m) --k;
-    frame = frames_[k];
+    frame = {{}, {}, full_domain(*terrain_), {}};
+    const std::vector<int> columns = kept(errors_m_[0], camera.kappa_px, camera.position.x);
+    const auto width = static_cast<std::uint32_t>(columns.size());
+    for (const int j : kept(errors_m_[1], camera.kappa_px, camera.position.y))
+      for (const int i : columns) {
+        const auto at = static_cast<std::uint32_t>(frame.mesh.positions.size());
+        frame.mesh.positions.push_back(terrain_->point(i, j));
+        frame.vertex_keys.push_back(terrain_->index(i, j));
+        if (i == 0 || j == 0) continue;
+        frame.mesh.triangles.push_back({at - width - 1, at - width, at});  // counter-clockwise
+        frame.mesh.triangles.push_back({at - width - 1, at, at - 1});
+      }
   }
   void reset() override {}  // nothing is kept from frame to frame
-  std::unique_ptr<LodMethod> clone() const override { return std::make_unique<UniformGrid>(*this); }
+  std::unique_ptr<LodMethod> clone() const override { return std::make_unique<LineGrid>(*this); }
 
  private:
-  std::vector<LodFrame> frames_;  // [k]: every 2ᵏ-th sample
-  std::vector<double> errors_m_;  // [k]: of frames_[k], metres
-  double highest_m_ = 0;
+  std::vector<int> kept(const std::vector<double>& m, double kappa_px, double x_m) const {
+    std::vector<int> lines;
+    for (int k = 0; k < std::ssize(m); ++k)
+      if (kappa_px * m[k] > threshold_px() * std::abs(k * terrain_->spacing_m - x_m)) lines.push_back(k);
+    return lines;
+  }
+  const Terrain* terrain_ = nullptr;
+  std::vector<double> errors_m_[2];  // of columns and rows
 };
 
 int main(int argc, char** argv) {
   using enum Promise;
-  MethodDescription own;
-  own.id = "uniform_grid";
-  own.title = "Every 2^k-th sample of each row and column";
-  own.variants = {
-      {"", "", {conforming, covers_domain, monotone_in_tau, idempotent, path_independent, exact_at_zero}}};
-  own.make = [](auto, const Options&) { return std::make_unique<UniformGrid>(); };
+  MethodDescription own{.id = "line_grid", .title = "Rows and columns by their error over distance"};
+  own.variants = {{"", "", {conforming, covers_domain, monotone_in_tau, idempotent, path_independent}}};
+  own.make = [](auto, const Options&) { return std::make_unique<LineGrid>(); };
   return run_program(argc, argv, {own});
 }
