@@ -4,15 +4,19 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/shipped.h"
 #include "properties/harness/run_suite.h"
 #include "properties/selftest/selftest.h"
 #include "reports/report.h"
+#include "scenarios/error.h"
+#include "scenarios/expected_file.h"
 #include "scenarios/whole_file.h"
 
 namespace plumbline::cli {
@@ -24,6 +28,7 @@ struct RunArguments {
   int jobs = 0;
   std::string methods;
   std::string isa;
+  std::string expected, write_expected;
   bool dump_meshes = false;
   bool no_pictures = false;
   bool quiet = false;
@@ -50,13 +55,31 @@ std::string repeat_line(const RunArguments& arguments) {
   if (!arguments.methods.empty()) {
     line += fmt::format(" --methods {}", fmt::join(split_list(arguments.methods), ","));
   }
+  if (!arguments.expected.empty()) line += fmt::format(" --expected {}", arguments.expected);
   return line;
 }
 
+/// A file, or the bare name of a shipped one ("smoke.toml").
+std::filesystem::path suite_file(const std::filesystem::path& named) {
+  std::error_code error;
+  if (named.has_parent_path() || std::filesystem::exists(named, error)) return named;
+  const std::filesystem::path one_shipped = shipped("suites" / named);
+  return std::filesystem::exists(one_shipped, error) ? one_shipped : named;
+}
+
 int run(const RunArguments& arguments) {
-  const Suite suite = load_suite(arguments.suite);
+  Suite suite = load_suite(suite_file(arguments.suite));
+  if (!arguments.expected.empty()) suite.expected = read_expected(arguments.expected, suite);
+  if (!arguments.write_expected.empty() && !arguments.methods.empty()) {
+    throw InputError(
+        "--write-expected writes what is expected of the whole suite, --methods flies a part of it; leave "
+        "one "
+        "out");
+  }
   const std::filesystem::path out = arguments.out;
   require_writable(out);  // known before the flights, not after
+  if (!arguments.write_expected.empty())
+    require_writable(std::filesystem::absolute(arguments.write_expected).parent_path());
 
   RunOptions options;
   options.jobs = arguments.jobs;
@@ -76,6 +99,8 @@ int run(const RunArguments& arguments) {
   outcome.verdict.selftest = selftest::run_selftest(brief);
   reports::write_reports(outcome.verdict, outcome.timing, outcome.pictures, out, repeat_line(arguments));
   const bool pass = outcome.verdict.pass();
+  if (!arguments.write_expected.empty() && !outcome.verdict.interrupted)
+    write_whole_file(arguments.write_expected, reports::expected_toml(outcome.verdict));
   if (!arguments.quiet) {
     fmt::print("{}", reports::summary_md(outcome.verdict, outcome.timing));
     fmt::print("report: {}\n", (out / "report.html").string());
@@ -90,11 +115,19 @@ void add_run(CLI::App& program, int& status) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = program.add_subcommand(
       "run", "Fly a suite's methods over its terrains and trajectories, judge every frame, write a report");
-  command->add_option("suite", arguments->suite, "suite file (TOML)")->required();
+  command
+      ->add_option("suite", arguments->suite,
+                   "suite file (TOML), or the name of a shipped one: default.toml, smoke.toml, …")
+      ->required();
   command->add_option("--out", arguments->out, "folder for the report")->capture_default_str();
   command->add_option("--jobs", arguments->jobs, "threads; 0: one a core")->check(CLI::Range(0, 1024));
   command->add_option("--methods", arguments->methods,
                       "only these methods of the suite, separated by commas");
+  command->add_option("--expected", arguments->expected,
+                      "file of what is known to fail: red when it changes, in either direction; replaces the "
+                      "suite's own");
+  command->add_option("--write-expected", arguments->write_expected,
+                      "write such a file of what fails now, to review as a diff");
   command->add_option(
       "--isa", arguments->isa,
       "limit Embree's instruction set: sse2, avx, avx2, avx512 (the figures do not depend on it)");

@@ -17,9 +17,11 @@ struct ConformityCounts {
   std::size_t crack = 0, t_junction = 0, fold_over = 0, degenerate = 0, hole = 0, overlap = 0, outline = 0,
               non_manifold = 0, duplicate = 0, non_finite = 0, bad_index = 0, unused_vertex = 0;
   friend bool operator==(const ConformityCounts&, const ConformityCounts&) = default;
+  /// All together; 0: sound.
   [[nodiscard]] std::size_t total() const;
 };
 
+/// What check_conformity found: how many of each, and each with its place.
 struct ConformityReport {
   ConformityCounts counts;
   std::vector<Finding> findings;       ///< sorted by code, then place (x, y, z), then witnesses
@@ -34,5 +36,9 @@ struct ConformityReport {
 /// describe a finding (area, gap) are rounded. Linear in triangles for meshes that match by index; geometry
 /// sees the left-overs alone.
 ConformityReport check_conformity(const Mesh& mesh, const PlanDomain& domain);
+
+/// The same for a mesh that promises no outline: wherever it ends, it ends. Holes are regions that its cover
+/// encloses; there is no finding `outline`.
+ConformityReport check_conformity_without_outline(const Mesh& mesh);
 
 }  // namespace plumbline::oracle

@@ -49,6 +49,7 @@ struct FindingKindDescription {
   std::string_view name;
   std::string_view meaning;
 };
+/// One entry of the catalogue.
 struct FindingDescription {
   FindingCode code;
   std::string_view name;

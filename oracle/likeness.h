@@ -26,6 +26,7 @@ struct CertifiedDistance {
   double least_m = 0, most_m = 0;
 };
 
+/// How like a mesh is to the object that it stands for, in space.
 struct Likeness {
   CertifiedDistance to_mesh;    ///< largest distance of a point of the reference from the mesh
   CertifiedDistance from_mesh;  ///< of a point of the mesh from the reference

@@ -96,7 +96,8 @@ ShapeReport shape(const Mesh& mesh) {
   double least_quality = std::numeric_limits<double>::infinity();
   double least_tangent = std::numeric_limits<double>::infinity();
   PlanShape sharpest;
-  for (const auto& triangle : mesh.triangles) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
     const std::size_t count = mesh.positions.size();
     if (triangle[0] >= count || triangle[1] >= count || triangle[2] >= count) continue;
     const Vec3& a = mesh.positions[triangle[0]];
@@ -109,7 +110,10 @@ ShapeReport shape(const Mesh& mesh) {
 
     const PlanShape plan = plan_shape(a, b, c);
     quality_sum += plan.quality;
-    least_quality = std::min(least_quality, plan.quality);
+    if (plan.quality < least_quality) {
+      least_quality = plan.quality;
+      report.worst_triangle = t;
+    }
     if (plan.quality < kSliverQuality) ++report.slivers;
     const double tangent = plan.run > 0 ? plan.rise / plan.run : 0;
     if (tangent < least_tangent) {
@@ -131,6 +135,32 @@ ShapeReport shape(const Mesh& mesh) {
   report.mean_valence = 3 * static_cast<double>(judged) / static_cast<double>(used);
   report.mean_fan_length = static_cast<double>(judged) / static_cast<double>(fans.fans());
   return report;
+}
+
+EdgeLengths edge_lengths(const Mesh& mesh, bool in_space) {
+  EdgeLengths out;
+  std::vector<double> lengths;
+  lengths.reserve(3 * mesh.triangles.size());
+  const std::size_t count = mesh.positions.size();
+  for (const auto& triangle : mesh.triangles) {
+    if (triangle[0] >= count || triangle[1] >= count || triangle[2] >= count) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t u = triangle[k], v = triangle[(k + 1) % 3];
+      const Vec3 d = mesh.positions[v] - mesh.positions[u];
+      const double length = std::sqrt(d.x * d.x + d.y * d.y + (in_space ? d.z * d.z : 0.0));
+      if (!(length > 0) || !std::isfinite(length)) continue;
+      if (lengths.empty() || length < out.shortest) {
+        out.shortest = length;
+        out.shortest_vertices = {std::min(u, v), std::max(u, v)};
+      }
+      lengths.push_back(length);
+    }
+  }
+  if (lengths.empty()) return out;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>((lengths.size() - 1) / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  out.median = *middle;
+  return out;
 }
 
 }  // namespace plumbline::oracle

@@ -105,6 +105,11 @@ VerdictWords verdict_in_words(const verdict::SuiteVerdict& verdict) {
     words.headline +=
         fmt::format("; {} of {} failed", failed, counted(verdict.gates.size(), "gate", "gates"));
   }
+  const auto foreseen =
+      std::ranges::count_if(verdict.gates, [](const auto& gate) { return gate.expected && gate.pass; });
+  if (foreseen > 0)
+    words.headline += fmt::format("; {} as expected",
+                                  counted(static_cast<std::size_t>(foreseen), "figure is", "figures are"));
   if (verdict.interrupted)
     words.sentences.emplace_back("Interrupted: only the runs that were finished are here.");
   if (!verdict.selftest.kinds.empty() && !verdict.selftest.perfect()) {

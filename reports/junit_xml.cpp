@@ -31,8 +31,11 @@ std::vector<TestSuite> test_suites(const verdict::SuiteVerdict& verdict) {
   std::vector<TestSuite> suites;
   for (const verdict::GateVerdict& gate : verdict.gates) {  // gates come in run order
     if (suites.empty() || suites.back().name != gate.run) suites.push_back({gate.run, {}});
-    const std::string failure =
-        gate.pass ? "" : fmt::format("value {}, limit {}", number_text(gate.value), gate.limit);
+    std::string failure;
+    if (!gate.pass) {
+      failure = gate.note.empty() ? fmt::format("value {}, limit {}", number_text(gate.value), gate.limit)
+                                  : gate.note;
+    }
     suites.back().cases.push_back({gate.name, failure});
   }
   TestSuite whole{verdict.suite, {}};

@@ -30,6 +30,11 @@ std::string results_csv(const verdict::SuiteVerdict& verdict);
 /// `junit.xml`: a test suite per run, a test case per gate; whatever judged nothing is a failed case.
 std::string junit_xml(const verdict::SuiteVerdict& verdict);
 
+/// An expectation file (scenarios/expected_file.h) of what fails and of what was expected, unless the gates
+/// hold by now: an entry per run and figure with the value found. Reasons are kept; a gate that was not
+/// expected to fail is its own reason. Comments name what no entry can stand for.
+std::string expected_toml(const verdict::SuiteVerdict& verdict);
+
 /// `summary.md`: the verdict, method × finding, the worst offenders, and triangles, error and time per
 /// threshold.
 std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::SuiteTiming& timing);

@@ -19,6 +19,7 @@ namespace plumbline::reports {
 namespace {
 
 constexpr std::size_t kFailedGatesShown = 10;
+constexpr std::size_t kSurprisesShown = 20;
 constexpr std::size_t kOffendersShown = 8;
 
 std::string place(Vec3 at) { return fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x, at.y, at.z); }
@@ -69,6 +70,7 @@ std::string failed_gates(const verdict::SuiteVerdict& verdict) {
   for (const verdict::RunVerdict& run : verdict.runs) method_of[run.id] = run.method;
   std::vector<Failure> failures;
   for (const verdict::GateVerdict& gate : verdict.gates) {
+    if (gate.expected) continue;  // surprises() shows these
     const std::string& method = method_of[gate.run];
     auto known = std::ranges::find_if(failures, [&](const Failure& failure) {
       return failure.gate == gate.name && failure.method == method;
@@ -98,6 +100,20 @@ std::string failed_gates(const verdict::SuiteVerdict& verdict) {
   if (failures.size() > kFailedGatesShown)
     out += fmt::format("\n… and {} more, in junit.xml.\n", failures.size() - kFailedGatesShown);
   return out;
+}
+
+/// Expectations that do not hold, each with what was expected and found.
+std::string surprises(const verdict::SuiteVerdict& verdict) {
+  std::string out;
+  std::size_t count = 0;
+  for (const verdict::GateVerdict& gate : verdict.gates) {
+    if (!gate.expected || gate.pass || ++count > kSurprisesShown) continue;
+    out += fmt::format("- {}: {}\n", markdown_cell(gate.run), markdown_cell(gate.note));
+  }
+  if (count == 0) return {};
+  if (count > kSurprisesShown)
+    out += fmt::format("\n… and {} more, in junit.xml.\n", count - kSurprisesShown);
+  return "\n## Not as expected\n\n" + out;
 }
 
 std::string offenders(const verdict::SuiteVerdict& verdict) {
@@ -331,9 +347,9 @@ std::string summary_md(const verdict::SuiteVerdict& verdict, const verdict::Suit
                                 verdict.pass() ? "pass" : "FAIL", markdown_cell(words.headline));
   if (!words.sentences.empty()) out += '\n';
   for (const std::string& sentence : words.sentences) out += fmt::format("- {}\n", markdown_cell(sentence));
-  out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + offenders(verdict) +
-         economy(verdict, timing) + spending(verdict) + objects(verdict, timing) + stability(verdict) +
-         trust(verdict.selftest);
+  out += "\n## Findings\n\n" + matrix(verdict) + failed_gates(verdict) + surprises(verdict) +
+         offenders(verdict) + economy(verdict, timing) + spending(verdict) + objects(verdict, timing) +
+         stability(verdict) + trust(verdict.selftest);
   return out;
 }
 

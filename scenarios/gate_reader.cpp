@@ -22,7 +22,7 @@ std::string_view without_blanks_before(std::string_view text) {
 }
 
 // Fills comparison, bound and times_tau from a string like "<= 1.5 tau"; false if it is not one.
-bool read_limit(std::string_view text, GateSpec& gate) {
+bool read_comparison(std::string_view text, GateSpec& gate) {
   text = without_blanks_before(text);
   for (const std::string_view comparison : {"<=", ">=", "==", "<", ">"}) {  // longer ones first
     if (text.substr(0, comparison.size()) == comparison) {
@@ -46,12 +46,15 @@ class GateReader {
       figures_.emplace_back(figure);
       groups_.emplace_back(figure.substr(0, figure.find('.')));
     }
+    known_ = figures_;
+    known_.emplace_back(kExpectedKey);
   }
 
   // `prefix`: empty, or the group ("displacement_px.") that `table` stands for.
   void read(const TomlTable& table, const std::string& method, const std::string& prefix) {
     for (const auto& [key, value] : table.entries()) {
       const bool is_group = prefix.empty() && std::find(groups_.begin(), groups_.end(), key) != groups_.end();
+      if (key == kExpectedKey && method.empty() && prefix.empty()) continue;  // the suite's reader takes it
       if (!value.is_table()) {
         add(value, method, prefix + key);
       } else if (is_group) {
@@ -73,21 +76,11 @@ class GateReader {
  private:
   void add(const TomlValue& value, const std::string& method, const std::string& figure) {
     if (std::find(figures_.begin(), figures_.end(), figure) == figures_.end()) {
-      value.fail(fmt::format("limits no known figure; did you mean '{}'?", nearest_name(figure, figures_)));
+      value.fail(fmt::format("limits no known figure; did you mean '{}'?",
+                             nearest_name(figure, method.empty() ? known_ : figures_)));
     }
-    GateSpec gate;
-    gate.figure = figure;
+    GateSpec gate = read_limit(value, figure);
     gate.method = method;
-    if (value.is_number()) {
-      gate.comparison = "==";
-      gate.bound = value.number();
-    } else if (!value.is_text()) {
-      value.fail("is neither number nor string; give a limit like 0 or \"<= 1 tau\"");
-    } else if (!read_limit(value.text(), gate)) {
-      value.fail(fmt::format("is \"{}\"; give a limit like 0, \"< 0.5\" or \"<= 1 tau\"",
-                             one_line(value.text(), 80)));
-    }
-    gate.text = fmt::format("{} {} {}{}", figure, gate.comparison, gate.bound, gate.times_tau ? " tau" : "");
     for (const GateSpec& earlier : gates_) {
       if (earlier.figure == figure && earlier.method == method)
         value.fail("is limited twice; keep one of the limits");
@@ -96,7 +89,7 @@ class GateReader {
   }
 
   const std::vector<std::string>& methods_;
-  std::vector<std::string> figures_, groups_;
+  std::vector<std::string> figures_, groups_, known_;
   std::vector<GateSpec> gates_;
 };
 
@@ -106,6 +99,22 @@ std::vector<GateSpec> read_gates(const TomlTable& gate, const std::vector<std::s
   GateReader reader(methods);
   reader.read(gate, "", "");
   return reader.take();
+}
+
+GateSpec read_limit(const TomlValue& value, const std::string& figure) {
+  GateSpec gate;
+  gate.figure = figure;
+  if (value.is_number()) {
+    gate.comparison = "==";
+    gate.bound = value.number();
+  } else if (!value.is_text()) {
+    value.fail("is neither number nor string; give a limit like 0 or \"<= 1 tau\"");
+  } else if (!read_comparison(value.text(), gate)) {
+    value.fail(
+        fmt::format("is \"{}\"; give a limit like 0, \"< 0.5\" or \"<= 1 tau\"", one_line(value.text(), 80)));
+  }
+  gate.text = fmt::format("{} {} {}{}", figure, gate.comparison, gate.bound, gate.times_tau ? " tau" : "");
+  return gate;
 }
 
 }  // namespace plumbline

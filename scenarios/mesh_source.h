@@ -52,6 +52,7 @@ struct MeshGenerator {
   std::string summary;
   Mesh (*make)();
 };
+/// In the order in which they are listed.
 const std::vector<MeshGenerator>& mesh_generators();
 
 }  // namespace plumbline

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "scenarios/error.h"
+#include "scenarios/expected_file.h"
 #include "scenarios/gate_reader.h"
 #include "scenarios/nearest.h"
 #include "scenarios/source_reader.h"
@@ -111,8 +112,7 @@ void refuse_equal_run_ids(const Suite& suite, const TomlTable& file) {
       if (trajectory.around != subject) continue;
       for (const MethodSpec& method : suite.methods) {
         for (const double threshold_px : method.thresholds_px) {
-          const std::string id =
-              fmt::format("{}.{}.{}.{}", subject_id, trajectory.id, method.id, threshold_px);
+          const std::string id = run_id(subject_id, trajectory.id, method.id, threshold_px);
           if (!ids.insert(id).second) {
             file.fail(fmt::format("two runs would be called \"{}\"; leave dots out of the ids", id));
           }
@@ -218,11 +218,20 @@ Suite read_suite(const TomlTable& file, const std::filesystem::path& path) {
     std::vector<std::string> methods;
     for (const MethodSpec& method : suite.methods) methods.push_back(method.id);
     suite.gates = read_gates(gate->table(), methods);
+    if (const TomlValue* expected = gate->table().find(kExpectedKey))
+      suite.expected = read_expected(path.parent_path() / expected->text(), suite);
   }
   return suite;
 }
 
 }  // namespace
+
+std::string run_id(const std::string& subject, const std::string& trajectory, const std::string& method,
+                   double threshold_px) {
+  std::string name = method;
+  std::replace(name.begin(), name.end(), ':', '-');
+  return fmt::format("{}.{}.{}.{}", subject, trajectory, name, threshold_px);
+}
 
 Suite load_suite(const std::filesystem::path& path) { return read_suite(read_toml(path), path); }
 

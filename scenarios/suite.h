@@ -41,6 +41,15 @@ struct GateSpec {
   friend bool operator==(const GateSpec&, const GateSpec&) = default;
 };
 
+/// One entry of an expectation file (expected_file.h): what a figure is known to be, whatever the gates ask.
+struct Expectation {
+  std::string run;  ///< a run's id as results name it; '*' stands for any text
+  GateSpec limit;   ///< its `method` is empty: the run says it
+  std::string why;  ///< the reason, for reports: "M4.S1: steep ground"
+  friend bool operator==(const Expectation&, const Expectation&) = default;
+};
+
+/// A suite file, read and checked.
 struct Suite {
   std::string name;
   std::filesystem::path path;  ///< where it was read from; not part of any result
@@ -55,12 +64,18 @@ struct Suite {
   std::vector<TrajectorySpec> trajectories;
   std::vector<MethodSpec> methods;
   std::vector<GateSpec> gates;
+  std::vector<Expectation> expected;  ///< each replaces the gates on its figure for its runs
   friend bool operator==(const Suite&, const Suite&) = default;
 };
 
+/// What a run is called in every result: "crags.orbit.block_bintree-repaired.8". It names folders, so it
+/// holds no ':', which some file systems refuse.
+std::string run_id(const std::string& subject, const std::string& trajectory, const std::string& method,
+                   double threshold_px);
+
 /// Reads a suite file (TOML, CONTRACT "Suite file"). Throws InputError naming file, line and the nearest
 /// known key for an unknown key, a wrong type, a duplicate id, a threshold that is not positive and finite,
-/// an empty list.
+/// an empty list, and for whatever read_expected refuses in the file that `[gate] expected` names.
 Suite load_suite(const std::filesystem::path& path);
 /// The same from memory; `path` stands for the file in complaints, and paths inside are relative to it.
 Suite parse_suite(std::string_view text, const std::filesystem::path& path);

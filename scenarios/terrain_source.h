@@ -91,6 +91,7 @@ struct GeneratorDescription {
   std::string name;
   std::string summary;
 };
+/// In the order in which they are listed.
 const std::vector<GeneratorDescription>& terrain_generators();
 
 }  // namespace plumbline

@@ -16,6 +16,7 @@
 /// atlas is a folder of them.
 namespace plumbline::properties {
 
+/// A case file: the input, and what the law is to say of it.
 struct Case {
   std::string note;  ///< what the case shows, for readers; may be empty
   std::string law;
@@ -43,6 +44,7 @@ struct CaseNames {
 /// The same with other names than the registries'.
 Case parse_case(std::string_view text, const std::string& name, const CaseNames& names);
 
+/// What a case does when it is run again.
 struct ReplayResult {
   LawOutcome outcome;
   bool confirmed = false;  ///< the outcome is the stored one, bit for bit

@@ -27,6 +27,7 @@
 #include "properties/harness/pictures.h"
 #include "properties/harness/suite_stage.h"
 #include "properties/verdict/economy.h"
+#include "scenarios/expected_file.h"
 
 namespace plumbline {
 namespace {
@@ -237,6 +238,25 @@ std::vector<verdict::FramePictures> draw_worst(const Stage& stage, const std::ve
   return pictures;
 }
 
+/// What may be asked of these runs: nothing is expected of methods that were left out, nor of flights that an
+/// interruption kept from being made.
+std::vector<Expectation> expected_of(const Suite& suite, const RunOptions& options,
+                                     const verdict::SuiteVerdict& verdict) {
+  if (options.methods.empty() && !verdict.interrupted) return suite.expected;
+  std::vector<std::string> ids;
+  if (verdict.interrupted) {
+    for (const verdict::RunVerdict& run : verdict.runs) ids.push_back(run.id);
+  } else {
+    ids = possible_run_ids(suite, options.methods);
+  }
+  std::vector<Expectation> kept;
+  for (const Expectation& one : suite.expected) {
+    if (std::any_of(ids.begin(), ids.end(), [&](const std::string& id) { return run_matches(one.run, id); }))
+      kept.push_back(one);
+  }
+  return kept;
+}
+
 SuiteOutcome run_in_arena(const Suite& suite, const RunOptions& options, int jobs) {
   const Clock::time_point start = Clock::now();
   const oracle::RayDevice device(options.isa);
@@ -301,7 +321,7 @@ SuiteOutcome run_in_arena(const Suite& suite, const RunOptions& options, int job
     outcome.timing.runs.resize(kept);
   }
   verdict::add_excess(verdict, suite.yardstick);
-  verdict.gates = judge_gates(suite.gates, verdict.runs);
+  verdict.gates = judge_gates(suite.gates, verdict.runs, expected_of(suite, options, verdict));
   verdict.vacuous = find_vacuous(verdict.runs);
 
   outcome.timing.machine = machine_name();

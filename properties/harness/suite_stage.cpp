@@ -137,10 +137,8 @@ const std::string& id_of(const Suite& suite, std::size_t subject) {
 }
 
 std::string run_id(const Suite& suite, std::size_t subject, std::size_t trajectory, const Entry& entry) {
-  std::string method = entry.spec->id;
-  std::replace(method.begin(), method.end(), ':', '-');  // run ids name folders, on every file system
-  return fmt::format("{}.{}.{}.{}", id_of(suite, subject), suite.trajectories[trajectory].id, method,
-                     entry.threshold_px);
+  return plumbline::run_id(id_of(suite, subject), suite.trajectories[trajectory].id, entry.spec->id,
+                           entry.threshold_px);
 }
 
 Stage set_up(const Suite& suite, const RunOptions& options, const oracle::RayDevice& device) {

@@ -49,6 +49,7 @@ struct LawOutcome {
   };
   std::vector<Part> parts;
 };
+/// As the enumerator is spelled.
 constexpr std::string_view outcome_name(LawOutcome::Kind kind) {
   switch (kind) {
     case LawOutcome::Kind::held:

@@ -18,6 +18,7 @@ namespace plumbline {
 inline constexpr std::int32_t kTileSteps = 32767;
 
 enum class TileSide { west, south, east, north };
+/// In the order of the file's edge lists, and their names.
 inline constexpr std::array<TileSide, 4> kTileSides{TileSide::west, TileSide::south, TileSide::east,
                                                     TileSide::north};
 std::string_view tile_side_name(TileSide side);

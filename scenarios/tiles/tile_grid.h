@@ -30,15 +30,18 @@ std::string tile_name(const TileAddress& address);
 /// level up to kDeepestTileLevel; none otherwise.
 std::optional<TileAddress> tile_address(const std::filesystem::path& path);
 
+/// What the tiles divide.
 enum class TileProjection {
   geographic,  ///< EPSG:4326: two tiles at level 0, side by side
   mercator,    ///< EPSG:3857: one tile at level 0
 };
+/// From where rows are counted.
 enum class TileScheme {
   tms,  ///< y counts from the south
   xyz,  ///< y counts from the north ("slippyMap")
 };
 
+/// A tile's rectangle, degrees.
 struct TileBounds {
   double west = 0, south = 0, east = 0, north = 0;
   friend bool operator==(const TileBounds&, const TileBounds&) = default;
@@ -54,6 +57,7 @@ struct TileGrid {
     return (projection == TileProjection::geographic ? 2U : 1U) << static_cast<unsigned>(level);
   }
   [[nodiscard]] static std::uint32_t rows(int level) { return 1U << static_cast<unsigned>(level); }
+  /// Whether there is such a tile.
   [[nodiscard]] bool contains(const TileAddress& address) const;
   /// y counted from the south, whatever the scheme.
   [[nodiscard]] std::uint32_t row_from_south(const TileAddress& address) const;

@@ -37,6 +37,7 @@ struct TileLayer {
 /// Ranges keep the size they have in the file, whatever they span.
 TileLayer parse_tile_layer(std::string_view json, std::string_view name);
 
+/// A tile and where it is kept.
 struct TileFile {
   TileAddress address;
   std::filesystem::path path;

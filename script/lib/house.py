@@ -58,8 +58,8 @@ LINE_RULES = [
 ]
 
 SPDX = ("SPDX-FileCopyrightText: The plumbline authors", "SPDX-License-Identifier: GPL-3.0-or-later")
-# Formats without comments, prose, what `plumbline fuzz` writes, and files that carry somebody else's terms.
-NO_SPDX = re.compile(r"\.(md|json|csv|png|svg|ply|obj|off|stl|glb|gltf|terrain|dem|prj|txt|asc|raw|npz|bin|in)$|^LICENSE|(^|/)\.[a-z-]+$|/vendor/|^properties/atlas/.*\.toml$")
+# Formats without comments, prose, what `plumbline fuzz` and `run --write-expected` write, and files that carry somebody else's terms.
+NO_SPDX = re.compile(r"\.(md|json|csv|png|svg|ply|obj|off|stl|glb|gltf|terrain|dem|prj|txt|asc|raw|npz|bin|in)$|^LICENSE|(^|/)\.[a-z-]+$|/vendor/|^properties/atlas/.*\.toml$|\.expected\.toml$")
 PATIENCE_LINES = 500
 # Long for a reason that a reader meets anyway.
 LONG_FILES = re.compile(r"^(LICENSE|.*\.(json|svg|csv|ply|obj|off|stl|gltf)|.*/vendor/.*)$")

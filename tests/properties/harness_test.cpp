@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "properties/harness/gates.h"
@@ -208,6 +209,108 @@ TEST(Gates, AFigureAboutCutsAsksTheFlightsThatHaveThem) {
   ASSERT_EQ(vacuous.size(), 1u);
   EXPECT_TRUE(std::isnan(vacuous[0].value));
   EXPECT_FALSE(vacuous[0].pass) << "no flight was asked: that is no pass";
+}
+
+Expectation expect(const std::string& run, const std::string& figure, const std::string& comparison,
+                   double bound) {
+  return {run,
+          {figure, "", comparison, bound, false, fmt::format("{} {} {}", figure, comparison, bound)},
+          "steep"};
+}
+
+const std::vector<GateSpec> kNoCracks{{"crack", "", "==", 0, false, "crack == 0"}};
+
+TEST(Expected, ReplacesTheGateWhileTheFigureIsAsExpected) {
+  const auto judged = judge_gates(kNoCracks, {run_with("full", 1, 0), run_with("block_bintree", 1, 211)},
+                                  {expect("t.f.block_bintree", "crack", "==", 211)});
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_FALSE(judged[0].expected);
+  EXPECT_TRUE(judged[1].expected);
+  EXPECT_TRUE(judged[1].pass);
+  EXPECT_EQ(judged[1].name, "expected: crack (steep)");
+  EXPECT_EQ(judged[1].limit, "== 211");
+  EXPECT_EQ(judged[1].note, "");
+  EXPECT_FALSE(judged[1].needless);
+}
+
+TEST(Expected, AChangeInEitherDirectionFails) {
+  const std::vector<Expectation> expected{expect("t.f.block_bintree", "crack", "==", 211)};
+  const auto found = [&](std::size_t cracks) {
+    const auto judged = judge_gates(kNoCracks, {run_with("block_bintree", 1, cracks)}, expected);
+    EXPECT_EQ(judged.size(), 1u);
+    EXPECT_FALSE(judged.at(0).pass);
+    return judged.at(0);
+  };
+  EXPECT_EQ(found(198).note, "expected 211 crack (steep), found 198: better? update the expectation");
+  EXPECT_EQ(found(230).note, "expected 211 crack (steep), found 230: worse");
+  EXPECT_EQ(found(0).note,
+            "expected 211 crack (steep), found 0: \"crack == 0\" holds now, remove the expectation");
+  EXPECT_TRUE(found(0).needless);
+}
+
+TEST(Expected, WordsFollowTheDirectionOfTheFigure) {
+  verdict::RunVerdict run = run_with("full", 2, 0);
+  const auto note = [&](const Expectation& one) { return judge_gates(kNoCracks, {run}, {one}).at(1).note; };
+  run.summary.triangles = 7;
+  EXPECT_EQ(note(expect("t.*", "triangles", "==", 8)),
+            "expected 8 triangles (steep), found 7: changed? update the expectation");
+  run.summary.shape.min_quality = 0.25;
+  EXPECT_EQ(note(expect("t.*", "shape.min_quality", "==", 0.5)),
+            "expected shape.min_quality of 0.5 (steep), found 0.25: worse");
+  Expectation within = expect("t.*", "displacement_px.p99", "<=", 1);
+  within.limit.times_tau = true;
+  EXPECT_EQ(note(within), "expected displacement_px.p99 of <= 1 tau (steep), found 3: worse");
+}
+
+TEST(Expected, MethodsOwnGateAndDefaultGatesAreReplacedToo) {
+  std::vector<GateSpec> gates = kNoCracks;
+  gates.push_back({"crack", "block_bintree", "<=", 5, false, "crack <= 5"});
+  const std::vector<Expectation> expected{expect("*", "crack", "==", 9)};
+  EXPECT_EQ(judge_gates(gates, {run_with("block_bintree", 1, 9)}, expected).size(), 1u);
+  const auto bare = judge_gates({}, {run_with("full", 1, 9)}, expected);
+  EXPECT_EQ(bare.size(), 12u) << "eleven of the default gates, and the expectation";
+  EXPECT_TRUE(bare.back().expected && bare.back().pass);
+}
+
+TEST(Expected, EveryEntryIsJudgedForItself) {
+  const auto judged = judge_gates(kNoCracks, {run_with("full", 1, 3)},
+                                  {expect("t.*", "crack", "<=", 5), expect("t.f.full", "crack", "==", 4)});
+  ASSERT_EQ(judged.size(), 2u);
+  EXPECT_TRUE(judged[0].pass);
+  EXPECT_FALSE(judged[1].pass);
+}
+
+TEST(Expected, OfNoRunOrOfNothingMeasuredNeverHolds) {
+  const auto idle = judge_gates(kNoCracks, {run_with("full", 1, 0)}, {expect("t.gone.*", "crack", ">=", 0)});
+  ASSERT_EQ(idle.size(), 2u);
+  EXPECT_FALSE(idle[1].pass);
+  EXPECT_EQ(idle[1].run, "t.gone.*");
+  EXPECT_THAT(idle[1].note, testing::HasSubstr("was not flown"));
+
+  const auto silent =
+      judge_gates(kNoCracks, {run_with("full", 1, 0)}, {expect("t.*", "vertical_m.max", ">=", 0)});
+  ASSERT_EQ(silent.size(), 2u);
+  EXPECT_FALSE(silent[1].pass);
+  EXPECT_TRUE(std::isnan(silent[1].value));
+  EXPECT_THAT(silent[1].note, testing::HasSubstr("nothing was measured"));
+}
+
+TEST(Expected, NothingIsExpectedOfMethodsLeftOut) {
+  Suite suite = small_suite();
+  suite.expected = {expect("hills.orbit.full.1", "triangles", ">=", 1),
+                    expect("hills.orbit.block_bintree.2", "triangles", "==", 0)};
+  RunOptions options;
+  options.pictures = false;
+  options.methods = {"full"};
+  const auto count = [](const SuiteOutcome& outcome) {
+    return std::count_if(outcome.verdict.gates.begin(), outcome.verdict.gates.end(),
+                         [](const verdict::GateVerdict& gate) { return gate.expected; });
+  };
+  EXPECT_EQ(count(run_suite(suite, options)), 1);
+  options.methods.clear();
+  const SuiteOutcome whole = run_suite(suite, options);
+  EXPECT_EQ(count(whole), 2);
+  EXPECT_FALSE(whole.verdict.pass());
 }
 
 TEST(Vacuous, OneLevelOnEachOfTwoTerrainsIsAFailure) {

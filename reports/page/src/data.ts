@@ -82,7 +82,10 @@ export interface Run {
   };
 }
 
-export interface Gate { name: string; run: string; limit: string; value: Figure; pass: boolean }
+/** `expected`: an entry of an expectation file; `note`: what to make of one that does not hold. */
+export interface Gate {
+  name: string; run: string; limit: string; value: Figure; pass: boolean; expected?: true; note?: string;
+}
 
 export interface Terrain {
   id: string; columns: number; rows: number; spacing_m: number; lowest_m: Figure; highest_m: Figure;

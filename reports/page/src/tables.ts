@@ -91,8 +91,9 @@ export function gatesSection(): HTMLElement | null {
       : `${short(failed.length)} of ${plural(results.gates.length, 'gate')} failed; these come first.`),
     longTable([{ head: 'Gate' }, { head: 'Verdict' }, { head: 'Run' }, { head: 'Limit' }, { head: 'Value', number: true }],
       ordered.map((gate) => [
-        gate.name,
-        el('span', { class: gate.pass ? 'tag good' : 'tag bad' }, gate.pass ? '✓ holds' : '✕ fails'),
+        gate.note ?? gate.name,
+        el('span', { class: gate.pass ? 'tag good' : 'tag bad' },
+          gate.expected ? (gate.pass ? '≈ as expected' : '✕ not as expected') : gate.pass ? '✓ holds' : '✕ fails'),
         el('code', {}, gate.run), gate.limit, short(gate.value),
       ]), 'Gates', 12));
 }

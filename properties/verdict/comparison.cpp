@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "properties/verdict/comparison.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "properties/verdict/verdict.h"
+
+namespace plumbline::verdict {
+namespace {
+
+constexpr std::array<std::string_view, 3> kDescribe{"triangles", "triangles_max", "stability.cuts"};
+constexpr std::array<std::string_view, 1> kLessIsWorse{"shape.min_quality"};
+
+/// Of checks: last words of paths whose growth is bad whatever they stand in.
+constexpr std::array<std::string_view, 32> kBadWords{"max",
+                                                     "certain_max",
+                                                     "rms",
+                                                     "mean",
+                                                     "p999",
+                                                     "p99",
+                                                     "over_threshold",
+                                                     "uncovered_px",
+                                                     "samples_max_m",
+                                                     "slivers",
+                                                     "t_junctions",
+                                                     "cracks",
+                                                     "crack",
+                                                     "t_junction",
+                                                     "largest_gap_m",
+                                                     "mean_gap_m",
+                                                     "mean_abs_gap_m",
+                                                     "least_skirt_m",
+                                                     "least_skirt_other_m",
+                                                     "normal_max_deg",
+                                                     "normal_mean_deg",
+                                                     "turned_share",
+                                                     "self_intersections",
+                                                     "visible_findings",
+                                                     "findings_total",
+                                                     "tile_faults",
+                                                     "pixels",
+                                                     "faulty",
+                                                     "broken",
+                                                     "open",
+                                                     "least",
+                                                     "most"};
+
+template <std::size_t Size>
+bool is_one_of(std::string_view word, const std::array<std::string_view, Size>& words) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+}  // namespace
+
+Direction figure_direction(std::string_view path) {
+  constexpr std::string_view kGroup = "conformity.";  // of checks; a run's counts stand alone
+  if (path.starts_with(kGroup)) path.remove_prefix(kGroup.size());
+  if (is_one_of(path, kLessIsWorse)) return Direction::less_is_worse;
+  if (is_one_of(path, kDescribe)) return Direction::neither;
+  const auto known = figures();
+  if (std::ranges::find(known, path, &Figure::path) != known.end()) return Direction::more_is_worse;
+  const std::string_view last = path.substr(path.rfind('.') + 1);
+  if (last == "min_quality") return Direction::less_is_worse;
+  return is_one_of(last, kBadWords) ? Direction::more_is_worse : Direction::neither;
+}
+
+std::string_view change_name(Change change) {
+  switch (change) {
+    case Change::worse:
+      return "worse";
+    case Change::better:
+      return "better";
+    case Change::changed:
+      return "changed";
+  }
+  return "changed";
+}
+
+Change figure_change(Direction direction, double before, double after) {
+  if (std::isnan(after)) return Change::worse;
+  if (std::isnan(before) || direction == Direction::neither) return Change::changed;
+  const double more = std::fabs(after) - std::fabs(before);
+  if (more == 0 || std::isnan(more)) return Change::changed;
+  return (more > 0) == (direction == Direction::more_is_worse) ? Change::worse : Change::better;
+}
+
+std::string_view matter_name(Matter matter) {
+  switch (matter) {
+    case Matter::verdict:
+      return "verdict";
+    case Matter::run:
+      return "run";
+    case Matter::gate:
+      return "gate";
+    case Matter::vacuous:
+      return "vacuous";
+    case Matter::finding:
+      return "finding";
+    case Matter::figure:
+      return "figure";
+    case Matter::setting:
+      return "setting";
+  }
+  return "figure";
+}
+
+std::size_t Comparison::count(Change change) const {
+  return static_cast<std::size_t>(std::ranges::count(differences, change, &Difference::change));
+}
+
+std::string_view Comparison::word() const {
+  if (differences.empty()) return "unchanged";
+  if (count(Change::worse) > 0) return "worse";
+  return count(Change::better) > 0 ? "better" : "changed";
+}
+
+}  // namespace plumbline::verdict
