@@ -281,5 +281,27 @@ def layer() -> None:
     put("layer", "deep.json", json.dumps({"available": [[]] * 25 + [[{"startX": 0, "startY": 0, "endX": 67108863, "endY": 33554431}]]}))
 
 
-for write in (ply, obj, off, stl, gltf, pose, suite, case, judge, tile, layer):
+def results() -> None:
+    run = {"id": "a.b.full.1", "terrain": "a", "frames": [{"index": 0, "triangles": 2, "vertical_m": {"at": [1, 2.5]}}], "summary": {"frames": 1, "conformity": {"crack": 0, "hole": 2}, "displacement_px": {"p99": 0.25, "max": None}, "self_intersection": 3}}
+    put("results", "results.json", json.dumps({
+        "schema": "plumbline.results/1", "suite": "s", "yardstick": "full", "viewport": [9, 9], "fov_y_deg": 60, "pass": False, "interrupted": False,
+        "selftest": {"pass": True}, "terrains": [{"id": "a", "columns": 3}], "meshes": [], "runs": [run, {**run, "id": "a.b.full.2"}],
+        "gates": [{"name": "crack", "run": "a.b.full.1", "limit": "crack == 0", "value": 1, "pass": False}], "vacuous": ["x"]}))
+    put("results", "check.json", json.dumps({
+        "schema": "plumbline.check/1", "verdict": "faulty", "frame": "own", "camera": {"fov_y_deg": 60},
+        "meshes": [{"file": "a/b/one.ply", "triangles": 10, "shape": {"min_quality": 0.5}}, {"file": "a/b/two.ply"}, {"file": "a/b/two.ply"}],
+        "conformity": {"crack": 2}, "findings_total": 3,
+        "findings": [{"code": 302, "name": "crack", "kind": "gap", "mesh": "a/b/one.ply", "at": [1, 2, None]}, {"code": 302, "mesh": 0, "other_mesh": 1, "at": [1, 2, 4]}],
+        "seams": [{"mesh": 0, "other_mesh": 1, "state": "covered by a skirt", "largest_gap_m": -0.5}],
+        "vertical_m": {"max": 1.5, "at": [3, 4]}, "declared_m": 2, "declared_holds": True}))
+
+
+def expected() -> None:
+    entry = 'run = "hills.skim.full.1"\nfigure = "crack"\nvalue = "== 63"\nwhy = "steep"\n'
+    put("expected", "tables.toml", f"[[expected]]\n{entry}[[expected]]\n{entry.replace('full.1', '*')}")
+    put("expected", "inline.toml", 'expected = [\n  { run = "*", figure = "displacement_px.p99", value = "<= 2 tau", why = "w" },\n  { run = "*.spin.*.2.5", figure = "hole", value = 3, why = "w" },\n]\n')
+    put("expected", "none.toml", "expected = []\n")
+
+
+for write in (ply, obj, off, stl, gltf, pose, suite, case, judge, tile, layer, results, expected):
     write()
