@@ -123,7 +123,7 @@ class Inside {
       domain.add_rectangle({facts.box.low.x, facts.box.low.y}, {facts.box.high.x, facts.box.high.y});
       report = oracle::check_conformity(surface, domain);
       subject_.held_to_rectangle = true;
-      facts.domain = "the rectangle of its box, since each corner has a vertex";
+      facts.domain = "the rectangle of its box";
     } else {
       report = oracle::check_conformity_without_outline(surface);
       facts.domain = "its own outline";
