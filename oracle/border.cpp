@@ -22,25 +22,11 @@ bool sound(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 
 Vec2 plan_of(const Vec3& p) { return {p.x, p.y}; }
 
+/// Two corners over one plan point, the third elsewhere: a vertical side.
 bool is_wall(const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (a == b || b == c || c == a) return false;
-  if (orientation(plan_of(a), plan_of(b), plan_of(c)).value != 0) return false;
-  // With area in space: not on one line there, either. In the vertical plane of the three that is a question
-  // of heights over the plan line; over one plan point there is no area.
-  const Vec3* low = &a;
-  const Vec3* high = &a;
-  for (const Vec3* p : {&b, &c}) {
-    if (before_in_plan(plan_of(*p), plan_of(*low))) low = p;
-    if (before_in_plan(plan_of(*high), plan_of(*p))) high = p;
-  }
-  if (plan_of(*low) == plan_of(*high)) return false;
-  for (const Vec3* p : {&a, &b, &c}) {
-    if (p == low || p == high) continue;
-    if (plan_of(*p) == plan_of(*low)) return p->z != low->z;
-    if (plan_of(*p) == plan_of(*high)) return p->z != high->z;
-    return height_gap(*low, *high, *p).sign != 0;
-  }
-  return false;
+  const bool ab = plan_of(a) == plan_of(b), bc = plan_of(b) == plan_of(c), ca = plan_of(c) == plan_of(a);
+  if (ab && bc) return false;  // over one plan point: no area
+  return (ab && a.z != b.z) || (bc && b.z != c.z) || (ca && c.z != a.z);
 }
 
 /// Walls by the plan points that they stand on.

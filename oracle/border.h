@@ -48,12 +48,13 @@ struct Border {
 struct Sheet {
   Mesh surface;                            ///< all positions; the triangles that are no walls
   std::vector<std::uint32_t> triangle_of;  ///< per triangle of `surface`: its index in the mesh
-  std::vector<std::uint32_t> walls;        ///< triangles of the mesh without plan area, but with area
+  std::vector<std::uint32_t> walls;        ///< triangles of the mesh with a vertical side
 };
 
-/// Takes the walls off: triangles of three different points whose plan is exactly a segment. Skirts, cliffs
-/// and vertical faces are made of them; O1 would call each degenerate. Decided exactly. Triangles with a bad
-/// index or a corner that is not finite stay in the surface, where O1 reports them.
+/// Takes the walls off: triangles of which two corners stand over one plan point at different heights, and
+/// the third elsewhere. Skirts and cliffs are made of them; O1 would call each degenerate. Triangles that are
+/// flat in plan otherwise, three corners over three points of a line, hold a border together and stay: O1
+/// tells them. So do triangles with a bad index or a corner that is not finite.
 Sheet take_walls_off(const Mesh& mesh);
 
 /// The border of the sheet's surface, in order of triangle. `normals`: one a vertex, or none. Where walls of

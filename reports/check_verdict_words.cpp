@@ -154,7 +154,11 @@ std::string headline_words(const CheckVerdict& verdict) {
   if (matches_otherwise(verdict))
     parts.push_back(fmt::format("matches the DEM if {}", verdict.terrain->better_match));
   const bool open = seam_totals(verdict).open > 0;
-  if (open) parts.push_back(open_seams(verdict));
+  if (open)
+    parts.push_back(open_seams(verdict) +
+                    (verdict.sound
+                         ? ", between tiles that only a client's skirt joins; --skirt says whether it does"
+                         : ""));
   const std::string faults = code_words(verdict, false, open);
   if (!faults.empty()) parts.push_back(faults);
   const std::string declared = declared_headline(verdict);

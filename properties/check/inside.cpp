@@ -54,13 +54,13 @@ class WallSpans {
   std::map<std::pair<double, double>, std::pair<double, double>> spans_;
 };
 
-verdict::Extent box_of(const Mesh& mesh) {
+verdict::Extent box_of(const Mesh& mesh, const std::vector<Vec3>& positions) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   verdict::Extent box{{inf, inf, inf}, {-inf, -inf, -inf}};
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
-      if (v >= mesh.positions.size()) continue;
-      const Vec3& p = mesh.positions[v];
+      if (v >= positions.size()) continue;
+      const Vec3& p = positions[v];
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
       box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
@@ -111,7 +111,7 @@ class Inside {
     verdict::CheckedMesh& facts = subject_.facts;
     subject_.sheet = oracle::take_walls_off(subject_.mesh);
     const Mesh& surface = subject_.sheet.surface;
-    facts.box = box_of(subject_.mesh);
+    facts.box = box_of(subject_.mesh, subject_.places.empty() ? subject_.mesh.positions : subject_.places);
     oracle::ConformityReport report;
     if (subject_.tile) {
       PlanDomain domain;
@@ -180,14 +180,14 @@ class Inside {
   void judge_object() {
     verdict::CheckedMesh& facts = subject_.facts;
     subject_.mesh = welded(subject_.mesh);
-    facts.box = box_of(subject_.mesh);
+    facts.box = box_of(subject_.mesh, subject_.places.empty() ? subject_.mesh.positions : subject_.places);
     facts.domain = "an object: no plan to cover; vertices of equal coordinates are one";
     const oracle::ConformityReport report = oracle::check_soundness(subject_.mesh);
     facts.conformity = report.counts;
     for (const Finding& finding : report.findings) add(finding);
     if (subject_.mesh.triangles.size() > kMostIntersected) return;
     const auto pairs = oracle::self_intersections(subject_.mesh);
-    if (!pairs) return;
+    if (!pairs) return;  // no manifold: judged by its own findings, and the text claims nothing
     facts.self_intersections = pairs->size();
     facts.self_intersections_judged = true;
     for (const auto& pair : *pairs) {

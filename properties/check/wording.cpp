@@ -97,9 +97,11 @@ verdict::CheckFinding as_check_finding(const Finding& finding, const Subject& su
     const Vec2 step = subject.tile->metres_per_step;
     out.finding.area_m2 *= step.x * step.y;
     out.finding.distance_m *= std::sqrt(step.x * step.y);
-    out.at = finding.at;  // the tiles' station puts longitude and latitude
-    if (!finding.vertices.empty() && finding.vertices.front() < subject.places.size())
-      out.at = subject.places[finding.vertices.front()];
+    out.at = finding.at;
+    if (subject.tile->placed) {
+      const Vec2 deg = subject.tile->grid.position_deg(subject.tile->address, finding.at.x, finding.at.y);
+      out.at = {deg.x, deg.y, finding.at.z};
+    }
     out.message = finding_message(out.finding, 1);
     return out;
   }
