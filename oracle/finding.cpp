@@ -41,7 +41,8 @@ const std::vector<FindingDescription>& finding_catalogue() {
         {"sphere", "a vertex lies outside of the header's bounding sphere"},
         {"center", "a hazard: the header's center is far from the tile"},
         {"normal", "normals are missing or zero; as a hazard: one points into the ground"},
-        {"trailing", "a hazard: bytes that belong to nothing"}}},
+        {"trailing", "a hazard: bytes that belong to nothing"},
+        {"missing_tile", "layer.json advertises tiles that are not there"}}},
       {nothing_judged, "nothing_judged",
        "An oracle or a law had nothing to judge: no frame, no triangle in the picture, a precondition that "
        "never "
@@ -136,7 +137,10 @@ const std::vector<FindingDescription>& finding_catalogue() {
     a───────────────c    over the coarse edge a c
 )",
        {{"t_vertex", "a vertex in the interior of an edge in plan, off its height"},
-        {"height_mismatch", "two edges with the same ends in plan, at different heights"}}},
+        {"height_mismatch", "two edges with the same ends in plan, at different heights"},
+        {"quantization",
+         "a hazard: two tiles have the vertex, and their heights differ by no more than their rounding"},
+        {"cliff", "a hazard: a wall closes the step, so that no daylight shows"}}},
       {hole, "hole",
        "A plan region inside the promised domain that no triangle covers, and that shares no stretch of the "
        "promised outline. Its area and its loop are given.",
@@ -236,19 +240,38 @@ namespace {
 std::string stem(FindingCode code) {
   return fmt::format("{}_{}", static_cast<int>(code), finding_name(code));
 }
-/// Findings about laws need a method, so their example is a case file; the others' is a mesh.
+/// Findings about laws need a method, so their example is a case file. What `plumbline check` alone finds has
+/// a folder: meshes or tiles that belong together, and what else is asked: a DEM (dem.asc), a bound
+/// (declared_m.txt), a POSE (camera.txt). The others' is a mesh.
 std::string_view ending(FindingCode code) {
-  return code == FindingCode::nothing_judged || code == FindingCode::law_violated ? "toml" : "off";
+  using enum FindingCode;
+  switch (code) {
+    case nothing_judged:
+    case law_violated:
+      return ".toml";
+    case tile_encoding:
+    case sliver:
+    case self_intersection:
+    case slit:
+    case border_normal:
+    case misplaced:
+    case declared_error:
+    case level_gap:
+    case skirt_visible:
+      return "";
+    default:
+      return ".off";
+  }
 }
 
 }  // namespace
 
 std::string finding_example(FindingCode code) {
-  return fmt::format("tests/data/findings/{}.{}", stem(code), ending(code));
+  return fmt::format("tests/data/findings/{}{}", stem(code), ending(code));
 }
 
 std::string finding_twin(FindingCode code) {
-  return fmt::format("tests/data/findings/{}_twin.{}", stem(code), ending(code));
+  return fmt::format("tests/data/findings/{}_twin{}", stem(code), ending(code));
 }
 
 std::string finding_image(FindingCode code) { return fmt::format("images/findings/{}.svg", stem(code)); }

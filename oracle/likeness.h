@@ -45,6 +45,11 @@ struct Likeness {
 /// if one of them is no oriented manifold.
 std::optional<Likeness> compare_in_space(const Mesh& mesh, const Mesh& reference, double within_m);
 
+/// Of all vertices of the two meshes the one that is farthest from the other mesh's surface: where to look
+/// first. Rounded; where neither has area (no triangle to be near to), the origin. Requires as
+/// compare_in_space.
+Vec3 farthest_vertex(const Mesh& mesh, const Mesh& reference);
+
 /// The object's area in the picture against the reference's, as a share of it: pixels that see the mesh less
 /// those that see the reference, divided by these; 0 where neither is seen, +∞ where only the mesh is.
 double projected_area_error(const PixelHits& reference_hits, const PixelHits& mesh_hits);

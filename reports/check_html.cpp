@@ -279,8 +279,8 @@ class CheckPage {
            number(gap ? signed_number(seam.mean_gap_m) : "0") +
            fmt::format("<td class=\"place\">{}</td>", gap ? place_words(seam.largest_at) : "") +
            number(std::to_string(seam.cracks)) + number(std::to_string(seam.t_junctions)) +
-           number(gap ? fmt::format("{}, {}", short_number(seam.least_skirt_m),
-                                    short_number(seam.least_skirt_other_m))
+           number(gap ? fmt::format("{}, {}", sufficient_number(seam.least_skirt_m),
+                                    sufficient_number(seam.least_skirt_other_m))
                       : "");
     if (normals) out += number(short_number(seam.normal_max_deg));
     return out + "</tr>\n";
@@ -348,7 +348,7 @@ class CheckPage {
     if (skirts)
       out += fmt::format("<td class=\"n\">{}{}</td><td class=\"n\">{}</td>",
                          hung ? short_number(mesh.skirt.least_depth_m) : "—",
-                         mesh.skirt.stated ? " (as said)" : "", short_number(mesh.least_skirt_m));
+                         mesh.skirt.stated ? " (as said)" : "", sufficient_number(mesh.least_skirt_m));
     return out + "</tr>\n";
   }
 

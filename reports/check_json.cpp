@@ -72,6 +72,7 @@ Json seam_json(const CheckVerdict& verdict, const verdict::SeamVerdict& seam) {
   return {{"mesh", mesh_ref(verdict, seam.mesh)},
           {"other_mesh", mesh_ref(verdict, seam.other_mesh)},
           {"state", verdict::seam_state_name(seam.state)},
+          {"must_meet", seam.must_meet},
           {"length_m", seam.length_m},
           {"t_junctions", seam.t_junctions},
           {"cracks", seam.cracks},

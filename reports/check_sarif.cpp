@@ -114,6 +114,8 @@ Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::
   const oracle::Finding& plain = finding.finding;
   const bool named = finding.mesh < verdict.meshes.size();
   const bool paired = finding.other_mesh < verdict.meshes.size();
+  const std::string file = named ? verdict.meshes[finding.mesh].file : std::string();
+  const std::string other_file = paired ? verdict.meshes[finding.other_mesh].file : std::string();
   std::string text = fmt::format("{} At {}", message_words(finding), place_words(finding.at));
   if (paired)
     text += fmt::format(", between {} and {}", mesh_name(verdict, finding.mesh),
@@ -123,9 +125,9 @@ Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::
               {"level", plain.severity == oracle::Severity::hazard ? "warning" : "error"},
               {"message", {{"text", text + "."}}},
               {"locations", Json::array()}};
-  if (named) out["locations"].push_back(location_json(mesh_name(verdict, finding.mesh), finding.at));
+  if (named) out["locations"].push_back(location_json(file, finding.at));
   if (paired) {
-    Json other = location_json(mesh_name(verdict, finding.other_mesh), finding.at);
+    Json other = location_json(other_file, finding.at);
     other["id"] = 1;
     other["message"] = {{"text", "the other mesh"}};
     out["relatedLocations"] = Json::array({std::move(other)});
@@ -133,8 +135,8 @@ Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::
   Fingerprint print;
   print.add(rule_id(plain.code));
   print.add(plain.kind);
-  print.add(named ? mesh_name(verdict, finding.mesh) : std::string());
-  print.add(paired ? mesh_name(verdict, finding.other_mesh) : std::string());
+  print.add(file);
+  print.add(other_file);
   for (const double coordinate : {finding.at.x, finding.at.y, finding.at.z}) print.add(coordinate);
   const int copy = seen[print.text()]++;  // several findings of one kind at one place stay several
   out["partialFingerprints"] = {{"plumblineFinding/v1", fmt::format("{}:{}", print.text(), copy)}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 
 #include <fmt/format.h>
@@ -98,7 +99,7 @@ class CheckText {
     double least = std::numeric_limits<double>::infinity(), share = 1;
     for (const CheckedMesh& mesh : verdict_.meshes) {
       if (mesh.skirt.stated) ++stated;
-      if (mesh.skirt.triangles == 0 && !mesh.skirt.stated) continue;
+      if (!(mesh.skirt.border_share > 0) && !mesh.skirt.stated) continue;  // walls elsewhere are no skirt
       ++hung;
       least = std::min(least, mesh.skirt.least_depth_m);
       share = std::min(share, mesh.skirt.border_share);
@@ -126,8 +127,18 @@ class CheckText {
                                 group.hazard ? " (hazard)" : "", group.exact ? "" : "at least ",
                                 group.count == 1 ? std::string("once") : fmt::format("{} times", group.count),
                                 link.empty() ? "" : ": " + link));
-      const std::size_t shown = std::min(group.listed.size(), cap(kFindingsOfACode));
-      for (const std::size_t i : std::span(group.listed).first(shown)) finding(verdict_.findings[i]);
+      std::size_t shown = 0;
+      std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+      for (const std::size_t i : group.listed) {
+        if (shown == cap(kFindingsOfACode)) break;
+        const verdict::CheckFinding& one = verdict_.findings[i];
+        // Of one seam the worst place is enough to begin with.
+        if (listing_ == Listing::brief && one.other_mesh != verdict::kNoMesh &&
+            !pairs.insert(std::minmax(one.mesh, one.other_mesh)).second)
+          continue;
+        finding(one);
+        ++shown;
+      }
       more(4, group.count - shown);
     }
     more(2, groups.size() - std::min(groups.size(), cap(kCodes)), " codes");
@@ -185,14 +196,15 @@ class CheckText {
       text_.line(6, fmt::format("{} at equal heights",
                                 counted_code(oracle::FindingCode::t_junction, seam.t_junctions)));
     std::vector<std::string> parts;
-    if (seam.quantum_m > 0 && seam.largest_gap_m != 0)
-      parts.push_back(fmt::format(
-          "one step of the tiles' heights is {}{}", metres(seam.quantum_m),
-          std::fabs(seam.largest_gap_m) <= seam.quantum_m ? ": the gap is no more than their rounding" : ""));
+    if (seam.largest_gap_m != 0 && std::fabs(seam.largest_gap_m) <= seam.quantum_m)
+      parts.push_back(
+          fmt::format("one step of the tiles' heights is {}: the gap is no more than their rounding",
+                      metres(seam.quantum_m)));
     std::vector<std::string> skirts;
-    if (seam.least_skirt_m > 0) skirts.push_back(fmt::format("{} on {}", metres(seam.least_skirt_m), first));
+    if (seam.least_skirt_m > 0)
+      skirts.push_back(fmt::format("{} on {}", sufficient_metres(seam.least_skirt_m), first));
     if (seam.least_skirt_other_m > 0)
-      skirts.push_back(fmt::format("{} on {}", metres(seam.least_skirt_other_m), second));
+      skirts.push_back(fmt::format("{} on {}", sufficient_metres(seam.least_skirt_other_m), second));
     if (!skirts.empty()) parts.push_back(fmt::format("skirts that suffice: {}", fmt::join(skirts, ", ")));
     if (seam.normal_max_deg > 0)
       parts.push_back(fmt::format("normals differ by up to {}°", short_number(seam.normal_max_deg)));

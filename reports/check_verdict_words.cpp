@@ -26,6 +26,7 @@ bool clean(const CheckedMesh& mesh) {
 /// "two.ply" of one, "3 of 4 meshes" of several.
 std::string which(const CheckVerdict& verdict, const std::vector<const CheckedMesh*>& meshes) {
   if (verdict.meshes.size() == 1) return meshes.front()->file;
+  if (meshes.size() == 2 && verdict.meshes.size() == 2) return "both meshes";
   return meshes.size() == verdict.meshes.size()
              ? fmt::format("all {} meshes", meshes.size())
              : fmt::format("{} of {} meshes", meshes.size(), verdict.meshes.size());
@@ -40,11 +41,11 @@ std::vector<const CheckedMesh*> those(const CheckVerdict& verdict, auto&& wanted
 
 /// "2 open seams, worst gap +4.2 m between a.ply and b.ply at 1, 2, 3"
 std::string open_seams(const CheckVerdict& verdict) {
-  const SeamTotals totals = seam_totals(verdict);
-  std::string out = fmt::format("{} open seam{}", totals.open, totals.open == 1 ? "" : "s");
+  const std::size_t count = seam_totals(verdict).faulty();
+  std::string out = fmt::format("{} open seam{}", count, count == 1 ? "" : "s");
   const verdict::SeamVerdict* worst = nullptr;
   for (const verdict::SeamVerdict& seam : verdict.seams)
-    if (seam.state == verdict::SeamState::open &&
+    if (is_faulty(seam) &&
         (worst == nullptr || std::fabs(seam.largest_gap_m) > std::fabs(worst->largest_gap_m)))
       worst = &seam;
   const std::string pair = fmt::format("between {} and {}", mesh_name(verdict, worst->mesh),
@@ -63,9 +64,15 @@ std::string declared_headline(const CheckVerdict& verdict) {
     const verdict::TerrainVerdict& terrain = *verdict.terrain;
     if (terrain.declared_at_samples && terrain.declared_certain && terrain.declared_everywhere)
       return fmt::format("the declared {} holds", metres(*terrain.declared_m));
-    return fmt::format("the declared {} does not hold{}: {} at {}", metres(*terrain.declared_m),
-                       terrain.declared_at_samples ? " between samples" : "", metres(terrain.vertical_m.max),
-                       place_words(terrain.at));
+    if (terrain.declared_at_samples && terrain.declared_certain)
+      return fmt::format(
+          "the declared {} holds as far as the DEM is unambiguous (with its cells split as said, {} at {})",
+          metres(*terrain.declared_m), metres(terrain.vertical_m.max), place_words(terrain.at));
+    return fmt::format(
+        "the declared {} does not hold{}: {} at {}", metres(*terrain.declared_m),
+        terrain.declared_at_samples ? " between samples" : "",
+        metres(terrain.declared_at_samples ? terrain.vertical_m.certain_max : terrain.vertical_m.max),
+        place_words(terrain.declared_at_samples ? terrain.certain_at : terrain.at));
   }
   if (verdict.reference && verdict.reference->declared_m) {
     const double bound = *verdict.reference->declared_m;
@@ -95,7 +102,10 @@ std::string code_words(const CheckVerdict& verdict, bool hazards, bool seams_tol
     if (parts.size() > 1 || seams_told || group.listed.empty()) continue;
     const verdict::CheckFinding& worst = verdict.findings[group.listed.front()];
     const std::string size = size_words(worst.finding);
-    std::string where = fmt::format("{}{}at {}", group.count == 1 ? "" : "the worst ",
+    std::string where = fmt::format("{}{}at {}",
+                                    group.count == 1 ? ""
+                                    : size.empty()   ? "the first "
+                                                     : "the worst ",
                                     size.empty() ? "" : size + " ", place_words(worst.at));
     if (verdict.meshes.size() > 1 && worst.mesh != verdict::kNoMesh) where += " in " + whose(verdict, worst);
     parts.back() += fmt::format(" ({})", where);
@@ -113,8 +123,9 @@ std::vector<std::string> proved_sentences(const CheckVerdict& verdict) {
   if (!surfaces.empty()) {
     std::set<std::string> domains;
     for (const CheckedMesh* mesh : surfaces) domains.insert(mesh->domain);
-    const std::string domain =
-        domains.size() == 1 && !domains.begin()->empty() ? *domains.begin() : "its domain";
+    // Why it is held to that was said before.
+    std::string domain = domains.size() == 1 && !domains.begin()->empty() ? *domains.begin() : "its domain";
+    domain = domain.substr(0, domain.find(','));
     const std::string where =
         verdict.meshes.size() == 1 ? std::string() : fmt::format("in {}, ", which(verdict, surfaces));
     out.push_back(fmt::format(
@@ -153,12 +164,8 @@ std::string headline_words(const CheckVerdict& verdict) {
   std::vector<std::string> parts;
   if (matches_otherwise(verdict))
     parts.push_back(fmt::format("matches the DEM if {}", verdict.terrain->better_match));
-  const bool open = seam_totals(verdict).open > 0;
-  if (open)
-    parts.push_back(open_seams(verdict) +
-                    (verdict.sound
-                         ? ", between tiles that only a client's skirt joins; --skirt says whether it does"
-                         : ""));
+  const bool open = seam_totals(verdict).faulty() > 0;
+  if (open) parts.push_back(open_seams(verdict));
   const std::string faults = code_words(verdict, false, open);
   if (!faults.empty()) parts.push_back(faults);
   const std::string declared = declared_headline(verdict);
@@ -167,10 +174,11 @@ std::string headline_words(const CheckVerdict& verdict) {
     if (verdict.meshes.empty()) parts.emplace_back("nothing was judged");
     const auto surfaces = those(verdict, [](const CheckedMesh& m) { return m.terrain; });
     const auto proved = those(verdict, clean);
+    // What is wrong comes first.
     if (!proved.empty() && proved.size() == verdict.meshes.size())
-      parts.insert(parts.begin(), surfaces.size() == proved.size()
-                                      ? "no crack, hole, overlap or fold"
-                                      : "no fault in how the triangles hang together");
+      parts.insert(verdict.sound ? parts.begin() : parts.end(),
+                   surfaces.size() == proved.size() ? "no crack, hole, overlap or fold"
+                                                    : "no fault in how the triangles hang together");
     if (!verdict.seams.empty()) parts.push_back("seams: " + seam_totals_words(seam_totals(verdict)));
   }
   if (const std::string hazards = code_words(verdict, true, true); !hazards.empty())

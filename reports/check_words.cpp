@@ -168,19 +168,36 @@ std::vector<CodeGroup> group_findings(const CheckVerdict& verdict) {
   return groups;
 }
 
+bool is_faulty(const SeamVerdict& seam) {
+  const bool rounding = seam.t_junctions == 0 && std::fabs(seam.largest_gap_m) <= seam.quantum_m;
+  return seam.state == verdict::SeamState::open && seam.must_meet && !rounding;
+}
+
 SeamTotals seam_totals(const CheckVerdict& verdict) {
   SeamTotals totals;
   for (const SeamVerdict& seam : verdict.seams) {
     if (seam.state == verdict::SeamState::watertight) ++totals.watertight;
     if (seam.state == verdict::SeamState::covered_by_skirt) ++totals.covered;
-    if (seam.state == verdict::SeamState::open) ++totals.open;
+    if (seam.state != verdict::SeamState::open) continue;
+    ++totals.open;
+    if (!seam.must_meet) {
+      ++totals.between_levels;
+    } else if (!is_faulty(seam)) {
+      ++totals.rounding;
+    }
   }
   return totals;
 }
 
 std::string seam_totals_words(const SeamTotals& totals) {
-  return fmt::format("{} watertight, {} covered by a skirt, {} open", totals.watertight, totals.covered,
-                     totals.open);
+  std::string out = fmt::format("{} watertight, {} covered by a skirt, {} open", totals.watertight,
+                                totals.covered, totals.open);
+  std::vector<std::string> excused;
+  if (totals.between_levels > 0) excused.push_back(fmt::format("{} between levels", totals.between_levels));
+  if (totals.rounding > 0)
+    excused.push_back(fmt::format("{} by no more than the rounding of heights", totals.rounding));
+  if (!excused.empty()) out += fmt::format(" ({})", fmt::join(excused, ", "));
+  return out;
 }
 
 const SeamVerdict* worst_seam(const CheckVerdict& verdict) {
@@ -198,8 +215,8 @@ double sufficient_skirt_m(const CheckVerdict& verdict) {
 std::string skirt_advice(const CheckVerdict& verdict) {
   const double depth = sufficient_skirt_m(verdict);
   if (!(depth > 0)) return {};
-  std::string out =
-      fmt::format("A skirt of {} below every border covers every gap between meshes", metres(depth));
+  std::string out = fmt::format("A skirt of {} below every border covers every gap between meshes",
+                                sufficient_metres(depth));
   const auto worst = std::ranges::max_element(verdict.seams, {}, skirt_needed);
   if (worst != verdict.seams.end() && skirt_needed(*worst) > 0)
     out += fmt::format("; the worst pair is {} and {}", mesh_name(verdict, worst->mesh),
@@ -208,7 +225,8 @@ std::string skirt_advice(const CheckVerdict& verdict) {
 }
 
 std::string mesh_name(const CheckVerdict& verdict, std::uint32_t mesh) {
-  return mesh < verdict.meshes.size() ? verdict.meshes[mesh].file : "?";
+  if (mesh >= verdict.meshes.size()) return "?";
+  return verdict.meshes[mesh].name.empty() ? verdict.meshes[mesh].file : verdict.meshes[mesh].name;
 }
 
 std::string whose(const CheckVerdict& verdict, const verdict::CheckFinding& finding) {
@@ -222,15 +240,30 @@ std::string place_words(Vec3 at) { return fmt::format("{:.10g}, {:.10g}, {:.7g}"
 std::string place_words(Vec2 at) { return fmt::format("{:.10g}, {:.10g}", at.x, at.y); }
 
 std::string metres(double value) { return short_number(value) + " m"; }
+std::string sufficient_number(double value) {
+  // Three digits, the last rounded up: a skirt a little too short is none.
+  double unit = 1e-9;
+  while (unit * 1000 < value) unit *= 10;
+  return value >= 1000 ? short_number(std::ceil(value)) : short_number(std::ceil(value / unit - 1e-9) * unit);
+}
+std::string sufficient_metres(double value) { return sufficient_number(value) + " m"; }
 std::string signed_metres(double value) { return (value > 0 ? "+" : "") + metres(value); }
 
 std::string size_words(const oracle::Finding& finding) {
   std::vector<std::string> parts;
-  if (finding.gap_m != 0) parts.push_back("gap " + signed_metres(finding.gap_m));
+  const bool tile = finding.code == FindingCode::tile_encoding;
+  if (finding.gap_m != 0)
+    parts.push_back(tile ? metres(finding.gap_m) + " out" : "gap " + signed_metres(finding.gap_m));
   if (finding.gap_px != 0)
     parts.push_back(fmt::format("{} px in the picture", short_number(std::fabs(finding.gap_px))));
   if (finding.area_m2 != 0) parts.push_back(fmt::format("{} m²", short_number(finding.area_m2)));
-  if (finding.distance_m != 0) parts.push_back(metres(finding.distance_m) + " away");
+  if (finding.distance_m != 0) {
+    const std::string distance = metres(finding.distance_m);
+    parts.push_back(finding.code == FindingCode::misplaced        ? "RMS " + distance
+                    : finding.code == FindingCode::declared_error ? distance + " off"
+                    : finding.code == FindingCode::slit           ? distance + " wide"
+                                                                  : distance + " away");
+  }
   if (finding.visibility == oracle::Visibility::visible) parts.emplace_back("visible");
   return fmt::format("{}", fmt::join(parts, ", "));
 }

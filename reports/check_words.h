@@ -37,9 +37,15 @@ std::vector<CodeGroup> group_findings(const verdict::CheckVerdict& verdict);
 
 struct SeamTotals {
   std::size_t watertight = 0, covered = 0, open = 0;
+  /// Of the open ones, those that are no fault: between levels (SeamVerdict::must_meet), and by no more than
+  /// the rounding of heights.
+  std::size_t between_levels = 0, rounding = 0;
+  [[nodiscard]] std::size_t faulty() const { return open - between_levels - rounding; }
 };
+/// An open seam that makes the meshes faulty.
+bool is_faulty(const verdict::SeamVerdict& seam);
 SeamTotals seam_totals(const verdict::CheckVerdict& verdict);
-/// "20 watertight, 2 covered by a skirt, 2 open", all three always.
+/// "20 watertight, 2 covered by a skirt, 2 open", all three always; and which of the open ones are no fault.
 std::string seam_totals_words(const SeamTotals& totals);
 /// The seam with the largest gap; null if no seam has one.
 const verdict::SeamVerdict* worst_seam(const verdict::CheckVerdict& verdict);
@@ -49,7 +55,7 @@ double sufficient_skirt_m(const verdict::CheckVerdict& verdict);
 /// one.
 std::string skirt_advice(const verdict::CheckVerdict& verdict);
 
-/// The file's name; "?" where the verdict names no mesh.
+/// What sentences call the mesh: CheckedMesh::name, or the file; "?" where the verdict names no mesh.
 std::string mesh_name(const verdict::CheckVerdict& verdict, std::uint32_t mesh);
 /// "a.ply", or "a.ply | b.ply" of a finding between two.
 std::string whose(const verdict::CheckVerdict& verdict, const verdict::CheckFinding& finding);
@@ -58,8 +64,13 @@ std::string place_words(Vec3 at);
 std::string place_words(Vec2 at);
 /// "0.0123 m", "+4.2 m" if signed.
 std::string metres(double value);
+/// The same, rounded up: "a skirt of that height suffices".
+std::string sufficient_metres(double value);
+/// The same without its unit.
+std::string sufficient_number(double value);
 std::string signed_metres(double value);
-/// How large: "gap +4.2 m, 3.1 px in the picture"; empty if nothing measures it.
+/// How large, by what the code measures: "gap +4.2 m, 3.1 px in the picture", "7.25 m off"; empty if nothing
+/// does.
 std::string size_words(const oracle::Finding& finding);
 /// The finding's sentence; made of code, kind and size where it brings none.
 std::string message_words(const verdict::CheckFinding& finding);

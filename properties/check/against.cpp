@@ -83,7 +83,7 @@ void against_reference(Examination& exam, std::vector<verdict::CheckFinding>& fi
   found.finding.code = FindingCode::declared_error;
   found.finding.kind = "reference";
   found.finding.distance_m = distance.least_m;
-  found.finding.at = subject.facts.box.low;
+  found.finding.at = oracle::farthest_vertex(mesh, reference);
   found.at = exam.frame.to_file(found.finding.at);
   found.message = fmt::format("the mesh and its reference are at least {} apart; {} were declared",
                               length_text(distance.least_m), length_text(*out.declared_m));

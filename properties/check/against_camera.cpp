@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -67,6 +68,11 @@ Scene assemble(const Examination& exam, const Stage& stage) {
 /// The findings so far, with the picture's answer: in it or not, and how large.
 void locate(const Examination& exam, const Stage& stage, const Camera& camera,
             const oracle::RaySurface& surface, std::vector<verdict::CheckFinding*>& all) {
+  // A tile's finding without a vertex has a place on its lattice alone; a set's has no mesh.
+  std::erase_if(all, [&](const verdict::CheckFinding* found) {
+    return found->mesh == verdict::kNoMesh ||
+           (exam.subjects[found->mesh].tile && found->finding.vertices.empty());
+  });
   std::vector<oracle::Finding> placed;
   for (const verdict::CheckFinding* found : all) {
     oracle::Finding finding = found->finding;
@@ -117,13 +123,13 @@ void against_camera(Examination& exam, const Stage& given, std::vector<verdict::
   const oracle::PixelHits hits = surface.look(camera);
   verdict::ImageVerdict& out = exam.verdict.image.emplace();
   out.camera = camera;
-  std::uint32_t first_wall = oracle::PixelHits::kNoHit;
+  std::map<std::uint32_t, std::size_t> walls;  // pixels of each
   for (const std::uint32_t t : hits.triangle) {
     if (t == oracle::PixelHits::kNoHit) continue;
     ++out.mesh_px;
     if (!scene.is_wall[t]) continue;
     ++out.skirt_px;
-    first_wall = std::min(first_wall, t);
+    ++walls[t];
   }
   if (pictures.camera || exam.request.pictures) {
     verdict::FramePictures& frame = pictures.camera.emplace();
@@ -166,21 +172,27 @@ void against_camera(Examination& exam, const Stage& given, std::vector<verdict::
     found.message = "the camera sees nothing of the mesh: no pixel was judged";
     findings.push_back(std::move(found));
   }
-  if (out.skirt_px == 0) return;
+  if (walls.empty()) return;
+  const auto widest = std::max_element(walls.begin(), walls.end(), [](const auto& a, const auto& b) {
+    return a.second < b.second;  // of equals the first
+  });
   verdict::CheckFinding found;
   found.finding.code = FindingCode::skirt_visible;
   found.finding.severity = Severity::hazard;
-  found.finding.at = scene.mesh.positions[scene.mesh.triangles[first_wall][0]];
+  found.finding.visibility = oracle::Visibility::visible;
+  std::uint32_t triangle = widest->first;
   found.mesh = 0;
-  std::size_t before = 0;
-  for (std::uint32_t k = 0; k < exam.subjects.size(); ++k) {
-    if (first_wall >= before) found.mesh = k;
-    before += exam.subjects[k].mesh.triangles.size();
-  }
-  found.at = found.finding.at;
+  while (triangle >= exam.subjects[found.mesh].mesh.triangles.size())
+    triangle -= static_cast<std::uint32_t>(exam.subjects[found.mesh++].mesh.triangles.size());
+  const Subject& subject = exam.subjects[found.mesh];
+  const auto& corners = subject.mesh.triangles[triangle];
+  found.finding.triangles = {triangle};
+  found.finding.at = subject.mesh.positions[corners[0]];
+  found.at = subject.tile && subject.tile->placed ? subject.places[corners[0]]
+                                                  : exam.frame.to_file(found.finding.at);
   found.message = fmt::format(
-      "{} of {} pixels that show the mesh show a skirt's wall: the eye sees a cliff where the "
-      "ground has none",
+      "{} of {} pixels that show the mesh show a skirt's wall, most of them here: the eye "
+      "sees a cliff where the ground has none",
       out.skirt_px, out.mesh_px);
   findings.push_back(std::move(found));
 }

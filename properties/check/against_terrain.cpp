@@ -175,9 +175,8 @@ class AgainstTerrain {
     const auto better =
         oracle::recognise_misplacement(used_vertices(placed), laid_.dem.samples, laid_.dem.has_data);
     if (!better) return;
-    constexpr std::string_view kMatches = "matches if ";  // the reports say it of the DEM
-    out.better_match =
-        better->words.starts_with(kMatches) ? better->words.substr(kMatches.size()) : better->words;
+    constexpr std::string_view kIf = "matches if ";
+    out.better_match = better->words.starts_with(kIf) ? better->words.substr(kIf.size()) : better->words;
     add(FindingCode::misplaced, std::string(oracle::misplacement_name(better->kind)), out.at,
         fmt::format("{}: the figures against the DEM speak of the arrangement, not of the mesh",
                     better->words),

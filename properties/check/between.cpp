@@ -166,23 +166,24 @@ class Between {
 };
 
 std::string pair_of(const Examination& exam, const Pair& pair) {
-  return fmt::format("{} and {}", exam.subjects[pair.first].facts.file,
-                     exam.subjects[pair.second].facts.file);
+  return fmt::format("{} and {}", exam.subjects[pair.first].facts.name,
+                     exam.subjects[pair.second].facts.name);
 }
 
 std::string gap_message(const Examination& exam, const Pair& pair, const oracle::SeamGap& gap, double gap_m) {
-  const std::string& first = exam.subjects[pair.first].facts.file;
-  const std::string& second = exam.subjects[pair.second].facts.file;
+  const std::string& first = exam.subjects[pair.first].facts.name;
+  const std::string& second = exam.subjects[pair.second].facts.name;
   if (gap.sign == 0)
     return fmt::format(
-        "{} has a vertex here that {} lacks; at the edge's height, but a rasteriser shows "
-        "pixels through it",
-        gap.of_first ? first : second, gap.of_first ? second : first);
+        "{} has a vertex here that {} lacks; at the edge's height, but a rasteriser shows pixels "
+        "through it{}",
+        gap.of_first ? first : second, gap.of_first ? second : first,
+        gap.covered ? ", of which a skirt hides most" : "");
   const std::string& higher = gap.sign > 0 ? first : second;
   const std::string& lower = gap.sign > 0 ? second : first;
-  const std::string tail =
-      gap.covered ? "its skirt hides the gap"
-                  : fmt::format("a skirt of {} below it would hide that", length_text(std::fabs(gap_m)));
+  const std::string tail = gap.covered ? "its skirt hides the gap"
+                                       : fmt::format("a skirt of {} below the border of {} would hide it",
+                                                     sufficient_length_text(std::fabs(gap_m)), higher);
   const std::string why = gap.t_junction
                               ? fmt::format(" at a vertex that {} lacks", gap.of_first ? second : first)
                               : std::string();
@@ -215,29 +216,46 @@ void report_seam(Examination& exam, const Pair& pair, const oracle::Seam& seam) 
   out.quantum_m = pair.quantum_m;
   out.normal_max_deg = seam.normals > 0 ? seam.normal_max_deg : std::numeric_limits<double>::quiet_NaN();
   out.largest_at = pair.to_file ? pair.to_file(seam.largest_at) : exam.frame.to_file(seam.largest_at);
+  out.must_meet = pair.must_meet;
   if (first.tile) out.level = first.tile->level;
   if (second.tile) out.other_level = second.tile->level;
   exam.verdict.seams.push_back(out);
   first.facts.least_skirt_m = std::max(first.facts.least_skirt_m, out.least_skirt_m);
   second.facts.least_skirt_m = std::max(second.facts.least_skirt_m, out.least_skirt_other_m);
-  exam.verdict.conformity.t_junction += seam.t_junctions;
-  exam.verdict.conformity.crack += seam.cracks;
+  if (pair.must_meet) {
+    exam.verdict.conformity.t_junction += seam.t_junctions;
+    exam.verdict.conformity.crack += seam.cracks;
+  }
+  list_gaps(exam, pair, seam);
+  judge_normals(exam, pair, seam);
+}
 
+void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
+  const double unit = pair.height_unit_m;
   std::vector<const oracle::SeamGap*> worst;
   for (const oracle::SeamGap& gap : seam.gaps) worst.push_back(&gap);
   std::stable_sort(worst.begin(), worst.end(), [](const auto* a, const auto* b) {
     if (a->covered != b->covered) return !a->covered;
     return std::fabs(a->gap_m) > std::fabs(b->gap_m);
   });
+  if (!pair.must_meet) {
+    // Tiles of two levels have T-junctions by construction, and gaps wherever the ground is not flat: the
+    // worst says what there is to say.
+    worst.resize(std::min<std::size_t>(worst.size(), 1));
+    if (!worst.empty() && worst.front()->sign == 0) worst.clear();
+  }
   exam.verdict.findings_total += worst.size() - std::min(worst.size(), kGapsListed);
   for (std::size_t k = 0; k < std::min(worst.size(), kGapsListed); ++k) {
     const oracle::SeamGap& gap = *worst[k];
     verdict::CheckFinding found;
     Finding& finding = found.finding;
     finding.code = gap.sign == 0 ? FindingCode::t_junction : FindingCode::crack;
-    const bool quantized = gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m;
-    finding.kind = quantized ? "quantization" : gap.t_junction ? "t_vertex" : "height_mismatch";
-    finding.severity = gap.covered || quantized || !pair.must_meet ? Severity::hazard : Severity::fault;
+    const bool rounding = gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m;
+    // Rounding explains that two heights of one place differ, not that one of them is missing.
+    const bool excused = rounding && !gap.t_junction;
+    if (gap.sign != 0)
+      finding.kind = excused ? "quantization" : gap.t_junction ? "t_vertex" : "height_mismatch";
+    finding.severity = gap.covered || excused || !pair.must_meet ? Severity::hazard : Severity::fault;
     finding.gap_m = gap.gap_m * unit;
     finding.at = gap.at;
     const bool vertex_of_second = gap.t_junction && !gap.of_first;
@@ -247,12 +265,13 @@ void report_seam(Examination& exam, const Pair& pair, const oracle::Seam& seam) 
     finding.triangles = {vertex_of_second ? gap.other_triangle : gap.triangle};
     found.at = pair.to_file ? pair.to_file(gap.at) : exam.frame.to_file(gap.at);
     found.message = gap_message(exam, pair, gap, finding.gap_m);
-    if (quantized)
-      found.message +=
-          fmt::format("; no more than their height steps of {} explain", length_text(pair.quantum_m));
+    if (rounding)
+      found.message += fmt::format("; the gap is no more than the rounding of the two tiles' heights ({})",
+                                   length_text(pair.quantum_m));
+    if (!pair.must_meet)
+      found.message += "; tiles of two levels meet nowhere by themselves: --skirt says what the client adds";
     exam.between.push_back(std::move(found));
   }
-  judge_normals(exam, pair, seam);
 }
 
 void judge_normals(Examination& exam, const Pair& pair, const oracle::Seam& seam) {

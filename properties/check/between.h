@@ -25,6 +25,7 @@ struct Pair {
 
 /// Enters a seam into the verdict: its table, the least skirts, the worst gaps as findings.
 void report_seam(Examination& exam, const Pair& pair, const oracle::Seam& seam);
+void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam);
 void judge_normals(Examination& exam, const Pair& pair, const oracle::Seam& seam);
 
 /// Seams between quantized tiles of equal and neighbouring levels, and the balance of levels.

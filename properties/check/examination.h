@@ -89,6 +89,9 @@ std::string finding_message(const oracle::Finding& finding, double unit_m);
 /// "12.4 m", "3.1 mm": three significant digits.
 std::string length_text(double metres);
 
+/// The same, never less than it is: "a skirt of that height suffices".
+std::string sufficient_length_text(double metres);
+
 /// A finding of one subject, its place in file coordinates, its lengths in metres.
 verdict::CheckFinding as_check_finding(const oracle::Finding& finding, const Subject& subject,
                                        std::uint32_t index, const Frame& frame);

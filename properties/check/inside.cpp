@@ -84,6 +84,32 @@ bool is_rectangular(const Mesh& surface, const verdict::Extent& box) {
   return std::all_of(seen.begin(), seen.end(), [](bool b) { return b; });
 }
 
+/// Where two triangles that meet do so: the middle of the points where an edge of one passes the other's
+/// plane inside of it; of coplanar ones, of their corners. Rounded: for a person to go there.
+Vec3 meeting_place(const Mesh& mesh, std::uint32_t first, std::uint32_t second) {
+  Vec3 sum, corners;
+  double count = 0;
+  const auto corner = [&](std::uint32_t t, std::size_t k) {
+    return mesh.positions[mesh.triangles[t][k % 3]];
+  };
+  for (const auto& [edges, face] : {std::pair(first, second), std::pair(second, first)}) {
+    const Vec3 a = corner(face, 0), b = corner(face, 1), c = corner(face, 2), n = cross(b - a, c - a);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = corner(edges, k), q = corner(edges, k + 1);
+      corners = corners + p * (1.0 / 6);
+      const double above = dot(n, p - a), below = dot(n, q - a);
+      if (!((above < 0 && below > 0) || (above > 0 && below < 0))) continue;
+      const Vec3 x = p + (q - p) * (above / (above - below));
+      if (dot(cross(b - a, x - a), n) < 0 || dot(cross(c - b, x - b), n) < 0 ||
+          dot(cross(a - c, x - c), n) < 0)
+        continue;
+      sum = sum + x;
+      ++count;
+    }
+  }
+  return count > 0 ? sum * (1 / count) : corners;
+}
+
 class Inside {
  public:
   Inside(Subject& subject, const Examination& exam) : subject_(subject), exam_(exam) {}
@@ -131,12 +157,19 @@ class Inside {
     drop_feet(report);
     facts.conformity = report.counts;
     const WallSpans walls(subject_);
+    for (const Finding& finding : report.findings) {
+      if (finding.code == FindingCode::degenerate)
+        flat_.push_back(subject_.sheet.triangle_of[finding.triangles.front()]);
+    }
+    std::sort(flat_.begin(), flat_.end());
     for (Finding& finding : report.findings) {
       for (std::uint32_t& t : finding.triangles) t = subject_.sheet.triangle_of[t];
       if (finding.code == FindingCode::crack && !subject_.sheet.walls.empty() && walls.fill(finding)) {
         finding.kind = "cliff";
         finding.severity = Severity::hazard;
       }
+      // Of a tile the format's own finding has told it.
+      if (finding.code == FindingCode::bad_index && subject_.tile) continue;
       add(finding);
     }
     subject_.border = oracle::border_of(subject_.mesh, subject_.sheet, subject_.normals);
@@ -194,7 +227,7 @@ class Inside {
       Finding finding;
       finding.code = FindingCode::self_intersection;
       finding.triangles = {pair[0], pair[1]};
-      finding.at = subject_.mesh.positions[subject_.mesh.triangles[pair[0]][0]];
+      finding.at = meeting_place(subject_.mesh, pair[0], pair[1]);
       add(finding);
     }
   }
@@ -227,16 +260,30 @@ class Inside {
                                length_text(facts.shortest_edge_m), length_text(facts.median_edge_m)));
     }
     if (!facts.terrain) return;
-    facts.shape = oracle::shape(*mesh);
+    // Triangles without area have their own finding.
+    std::vector<std::uint32_t> triangle_of = subject_.sheet.triangle_of;
+    if (!flat_.empty()) {
+      Mesh thick{mesh->positions, {}};
+      std::vector<std::uint32_t> kept;
+      for (std::size_t t = 0; t < triangle_of.size(); ++t) {
+        if (std::binary_search(flat_.begin(), flat_.end(), triangle_of[t])) continue;
+        thick.triangles.push_back(mesh->triangles[t]);
+        kept.push_back(triangle_of[t]);
+      }
+      triangle_of = std::move(kept);
+      facts.shape = oracle::shape(thick);
+    } else {
+      facts.shape = oracle::shape(*mesh);
+    }
     if (facts.shape.slivers == 0) return;
     Finding finding;
     finding.code = FindingCode::sliver;
     finding.kind = "thin";
     finding.severity = Severity::hazard;
     const std::uint32_t worst = facts.shape.worst_triangle;
-    facts.shape.worst_triangle = subject_.sheet.triangle_of[worst];
+    facts.shape.worst_triangle = triangle_of[worst];
     finding.triangles = {facts.shape.worst_triangle};
-    finding.at = subject_.mesh.positions[subject_.sheet.surface.triangles[worst][0]];
+    finding.at = subject_.mesh.positions[subject_.mesh.triangles[facts.shape.worst_triangle][0]];
     add(finding, fmt::format("{} {} of quality under {} in plan, this the worst with {:.3g}; normals and "
                              "shading suffer there",
                              facts.shape.slivers, facts.shape.slivers == 1 ? "triangle" : "triangles",
@@ -245,6 +292,7 @@ class Inside {
 
   Subject& subject_;
   const Examination& exam_;
+  std::vector<std::uint32_t> flat_;  // triangles without area, of the mesh; sorted
 };
 
 }  // namespace

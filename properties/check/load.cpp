@@ -6,7 +6,8 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <mutex>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -81,12 +82,13 @@ struct Inputs {
   std::vector<TileSource> tiles;
 };
 
-Inputs sort_out(const CheckRequest& request, std::vector<std::string>& notes) {
+Inputs sort_out(const CheckRequest& request, std::vector<std::string>& notes,
+                std::vector<verdict::CheckFinding>& findings) {
   Inputs out;
   for (const fs::path& input : request.inputs) {
     std::error_code error;
     if (fs::is_directory(input, error)) {
-      add_tile_folder(input, out.tiles, notes);
+      add_tile_folder(input, out.tiles, notes, findings);
     } else if (input.extension() == ".terrain") {
       add_tile_file(input, out.tiles, notes);
     } else {
@@ -113,6 +115,21 @@ void turn_over(Examination& exam, const std::vector<Subject*>& meshes) {
   exam.verdict.notes.emplace_back(
       "every triangle runs clockwise in x and y: right if y runs south, as rows of images do; otherwise "
       "back-face culling hides the whole mesh. They were judged turned over");
+}
+
+/// Meshes of one folder are told apart by what follows it.
+void name_meshes(std::vector<Subject>& subjects) {
+  std::string common;
+  bool first = true;
+  for (const Subject& subject : subjects) {
+    const std::string& file = subject.facts.file;
+    const std::string folder = subject.tile ? std::string() : file.substr(0, file.rfind('/') + 1);
+    if (std::exchange(first, false)) common = folder;
+    const auto differ = std::mismatch(common.begin(), common.end(), folder.begin(), folder.end()).first;
+    common.erase(differ, common.end());
+    common.erase(common.rfind('/') + 1);
+  }
+  for (Subject& subject : subjects) subject.facts.name = subject.facts.file.substr(common.size());
 }
 
 void settle_frame(Examination& exam) {
@@ -165,7 +182,7 @@ void settle_frame(Examination& exam) {
       verdict.notes.push_back(
           fmt::format("{} is taken for an object in space, since its faces cancel in "
                       "every direction; --kind terrain says otherwise",
-                      subject->facts.file));
+                      subject->facts.name));
   }
   verdict.frame = fmt::format(
       "the files' own coordinates, {} up{}", axis_name(exam.frame.up),
@@ -177,7 +194,7 @@ void settle_frame(Examination& exam) {
 void load(Examination& exam) {
   if (exam.request.inputs.empty())
     throw InputError("check: no mesh was given; name files, or a folder of tiles");
-  const Inputs inputs = sort_out(exam.request, exam.verdict.notes);
+  const Inputs inputs = sort_out(exam.request, exam.verdict.notes, exam.between);
   const std::size_t meshes = inputs.meshes.size(), tiles = inputs.tiles.size();
   exam.subjects.resize(meshes + tiles);
   std::vector<std::exception_ptr> failed(exam.subjects.size());
@@ -192,6 +209,7 @@ void load(Examination& exam) {
   for (const std::exception_ptr& failure : failed) {
     if (failure) std::rethrow_exception(failure);
   }
+  name_meshes(exam.subjects);
   settle_frame(exam);
 }
 

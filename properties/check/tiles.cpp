@@ -48,7 +48,9 @@ class TileSeams {
       const Subject& subject = exam.subjects[k];
       if (!subject.tile || !subject.tile->placed) continue;
       const TilePlace& tile = *subject.tile;
-      by_place_[{tile.level, tile.x, tile.y}] = k;
+      if (!by_place_.try_emplace({tile.level, tile.x, tile.y}, k).second)
+        exam.verdict.notes.push_back(
+            fmt::format("{} is there twice: neighbours were held against the first", subject.facts.name));
     }
   }
 
@@ -243,6 +245,7 @@ class TileSeams {
         if (!place || apart < 2) continue;
         const auto other = at(*place);
         if (!other || !told.insert({k, *other}).second) continue;
+        compare(*other, k, opposite(side));  // which is what a client draws, whatever it should
         verdict::CheckFinding found;
         found.finding.code = FindingCode::level_gap;
         found.finding.severity = Severity::hazard;
@@ -259,9 +262,10 @@ class TileSeams {
         found.at = {deg.x, deg.y, t.low_m};
         found.finding.at = {middle.x, middle.y, t.low_m};
         found.message = fmt::format(
-            "the deepest tiles on this side's two sides are {} levels apart; renderers expect "
+            "{} and {} are the deepest tiles on the two sides of this border, {} levels apart; renderers "
+            "expect "
             "neighbours one level apart, and skirts are sized for that",
-            apart);
+            exam_.subjects[k].facts.name, exam_.subjects[*other].facts.name, apart);
         exam_.between.push_back(std::move(found));
       }
     }
@@ -283,8 +287,8 @@ class TileSeams {
 
 }  // namespace
 
-void add_tile_folder(const fs::path& folder, std::vector<TileSource>& tiles,
-                     std::vector<std::string>& notes) {
+void add_tile_folder(const fs::path& folder, std::vector<TileSource>& tiles, std::vector<std::string>& notes,
+                     std::vector<verdict::CheckFinding>& findings) {
   const TileSet set = read_tile_set(folder);
   for (const std::string& note : set.layer.notes) notes.push_back(note);
   for (const TileFile& file : set.tiles)
@@ -293,12 +297,23 @@ void add_tile_folder(const fs::path& folder, std::vector<TileSource>& tiles,
     notes.push_back(fmt::format("{} tiles lie in no place of the grid and were left out, the first: {}",
                                 set.misplaced.size(), set.misplaced.front().generic_string()));
   const TileAvailability availability = compare_availability(set);
-  if (availability.missing > 0)
-    notes.push_back(fmt::format("{} of {} tiles that layer.json advertises are not there, the first: {}",
-                                availability.missing, availability.advertised,
-                                availability.first_missing.empty()
-                                    ? std::string("?")
-                                    : tile_name(availability.first_missing.front())));
+  if (availability.missing > 0) {
+    verdict::CheckFinding& found = findings.emplace_back();
+    found.finding.code = FindingCode::tile_encoding;
+    found.finding.kind = "missing_tile";
+    std::string first;
+    if (!availability.first_missing.empty()) {
+      const TileAddress& address = availability.first_missing.front();
+      const Vec2 middle = set.layer.grid.position_deg(address, kTileSteps * 0.5, kTileSteps * 0.5);
+      found.at = {middle.x, middle.y, 0};
+      first = ", the first: " + tile_name(address);
+    }
+    found.message = fmt::format(
+        "{} of {} tiles that layer.json advertises {} not there{}; clients ask for {} and "
+        "get nothing",
+        availability.missing, availability.advertised, availability.missing == 1 ? "is" : "are", first,
+        availability.missing == 1 ? "it" : "them");
+  }
   if (availability.unadvertised > 0)
     notes.push_back(
         fmt::format("{} tiles are there that layer.json does not advertise, the first: {}; clients never "

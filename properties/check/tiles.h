@@ -20,9 +20,10 @@ struct TileSource {
   TileGrid grid;
 };
 
-/// The tiles of a folder with its layer.json; what the folder itself gets wrong goes to the notes.
+/// The tiles of a folder with its layer.json. Tiles that it advertises and does not hold are a finding, what
+/// else the folder gets wrong goes to the notes.
 void add_tile_folder(const std::filesystem::path& folder, std::vector<TileSource>& tiles,
-                     std::vector<std::string>& notes);
+                     std::vector<std::string>& notes, std::vector<verdict::CheckFinding>& findings);
 /// One file. A layer.json three folders up says which grid it belongs to; without, EPSG:4326 in TMS order.
 void add_tile_file(const std::filesystem::path& file, std::vector<TileSource>& tiles,
                    std::vector<std::string>& notes);

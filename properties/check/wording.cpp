@@ -19,14 +19,22 @@ std::string length_text(double metres) {
   if (!std::isfinite(size)) return fmt::format("{} m", metres);
   if (size >= 1000) return fmt::format("{:.4g} km", metres / 1000);
   if (size >= 1) return fmt::format("{:.3g} m", metres);
-  if (size >= 1e-3) return fmt::format("{:.3g} mm", metres * 1e3);
+  if (size >= 1e-6) return fmt::format("{:.3g} mm", metres * 1e3);
   return fmt::format("{:.3g} m", metres);
+}
+
+std::string sufficient_length_text(double metres) {
+  // Three digits, the last rounded up: a skirt a little too short is none.
+  double unit = 1e-9;
+  while (unit * 1000 < metres) unit *= 10;
+  return length_text(std::ceil(metres / unit - 1e-9) * unit);
 }
 
 namespace {
 
 std::string area_text(double m2) {
-  return m2 >= 1e6 ? fmt::format("{:.3g} km²", m2 / 1e6) : fmt::format("{:.3g} m²", m2);
+  if (m2 >= 1e5) return fmt::format("{:.3g} km²", m2 / 1e6);
+  return m2 >= 1000 ? fmt::format("{:.0f} m²", m2) : fmt::format("{:.3g} m²", m2);
 }
 
 std::string crack_message(const Finding& finding, double unit_m) {
@@ -97,7 +105,7 @@ verdict::CheckFinding as_check_finding(const Finding& finding, const Subject& su
     const Vec2 step = subject.tile->metres_per_step;
     out.finding.area_m2 *= step.x * step.y;
     out.finding.distance_m *= std::sqrt(step.x * step.y);
-    out.at = finding.at;
+    out.at = finding.at;  // a tile whose path does not say where it lies has its lattice alone
     if (subject.tile->placed) {
       const Vec2 deg = subject.tile->grid.position_deg(subject.tile->address, finding.at.x, finding.at.y);
       out.at = {deg.x, deg.y, finding.at.z};

@@ -42,6 +42,7 @@ struct SkirtFigures {
 /// One mesh file, or tile, that was read.
 struct CheckedMesh {
   std::string file;     ///< as given, or inside the folder that was given: "9/533/383.terrain"
+  std::string name{};   ///< what sentences call it: `file` without the folder that all have in common
   std::string format;   ///< "PLY", "quantized-mesh", …
   bool terrain = true;  ///< a surface over a plan; false: an object in space
   std::string domain;   ///< what it was held to, in words: "the rectangle of its box", "its own outline"
@@ -80,6 +81,9 @@ std::string_view seam_state_name(SeamState state);
 struct SeamVerdict {
   std::uint32_t mesh = kNoMesh, other_mesh = kNoMesh;
   SeamState state = SeamState::watertight;
+  /// False: tiles of different levels, and no skirt was stated. Nothing promises that those meet: their gaps
+  /// are no faults and not in CheckVerdict::conformity; they tell the skirt that a client has to add.
+  bool must_meet = true;
   double length_m = 0;          ///< in plan, of the stretch that both have
   std::size_t t_junctions = 0;  ///< vertices of one inside an edge of the other
   std::size_t cracks = 0;       ///< stretches of the common subdivision with a gap
@@ -110,7 +114,7 @@ struct TerrainVerdict {
   /// Whether the declared bound is true: at the samples; between them, whichever way cells are split
   /// (certain_max); and against the declared diagonal (max).
   bool declared_at_samples = true, declared_certain = true, declared_everywhere = true;
-  std::string better_match;  ///< "rows flipped", …: an arrangement that fits far better; empty: none
+  std::string better_match;  ///< "rows are flipped (…): RMS …": fits far better if that; empty: none
 };
 
 /// Against another mesh, in space.
