@@ -75,7 +75,7 @@ for (const [name, mesher] of [['delatin', delatin], ['martini', martini]]) {
   writePly(join(out, 'martini', 'rows_flipped_5m.ply'), xyz, right.triangles);
 }
 
-// deck.gl's TerrainLayer: a picture of 128 x 128 pixels a tile (Terrarium's code), a skirt of its own.
+// As deck.gl's TerrainLayer asks: a picture of 128 x 128 pixels a tile (Terrarium's code); its skirt is twice the bound.
 const kTerrarium = { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 };
 function picture(tile) {
   const data = new Uint8Array(4 * kStep * kStep);
@@ -86,7 +86,7 @@ function picture(tile) {
   return { data, width: kStep, height: kStep };
 }
 for (const tesselator of ['martini', 'delatin']) {
-  for (const skirtHeight of [0, 50]) {
+  for (const skirtHeight of [0, 2 * 5, 50]) {
     for (const tile of tiles) {
       // Metres from the south-west sample of all tiles; y runs north, as on maps.
       const south = kRows * kStep - tile.row - kStep;

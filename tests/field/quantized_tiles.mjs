@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // node quantized_tiles.mjs OUT HEIGHTS.npz: folders of quantized-mesh tiles over the Jacksboro fault.
-//   separate  level 11, 3 x 2 tiles, each meshed by delatin at 20 m and knowing nothing of the others
+//   separate  level 11, 3 x 2 tiles, each meshed by martini at 20 m and knowing nothing of the others
 //   grid      the same tiles as plain grids of 65 x 65 vertices
 //   levels    the same grids, but one tile is replaced by its four children of level 12
 import decoder from '@here/quantized-mesh-decoder';
-import Delatin from 'delatin';
+import Martini from '@mapbox/martini';
 import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -38,10 +38,9 @@ const asGrid = (heights) => {
   const coords = Array.from({ length: heights.columns * heights.rows }, (_, k) => [k % heights.columns, Math.floor(k / heights.columns)]);
   return { coords: coords.flat(), triangles };
 };
-const byDelatin = (heights) => {
-  const tin = new Delatin(heights.values, heights.columns, heights.rows);
-  tin.run(kBound);
-  return { coords: tin.coords, triangles: tin.triangles };
+const byMartini = (heights) => {
+  const { vertices, triangles } = new Martini(heights.columns).createTile(heights.values).getMesh(kBound);
+  return { coords: vertices, triangles };
 };
 
 /// As HERE's decoder reads it, it has to be what was meant.
@@ -92,7 +91,7 @@ const isSplit = ({ x, y }) => x === split.x && y === split.y;
 const children = [0, 1, 2, 3].map((k) => ({ level: kLevel + 1, x: 2 * split.x + k % 2, y: 2 * split.y + (k >> 1) }));
 
 const sets = {
-  separate: { tiles: coarse, cells: 128, mesher: byDelatin },
+  separate: { tiles: coarse, cells: 128, mesher: byMartini },
   grid: { tiles: coarse, cells: 64, mesher: asGrid },
   levels: { tiles: [...coarse.filter((tile) => !isSplit(tile)), ...children], cells: 64, mesher: asGrid },
 };
