@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "oracle/conformity.h"
 #include "scenarios/mesh.h"
 
 namespace plumbline::oracle {
@@ -24,6 +25,7 @@ struct ExactHeight {
     const double share = step / kSteps;
     return (step == 0 ? low : share == 1 ? high : low * (1 - share) + high * share) - drop;
   }
+  [[nodiscard]] bool plain() const { return step == 0 && drop == 0; }
   friend bool operator==(const ExactHeight&, const ExactHeight&) = default;
 };
 
@@ -38,7 +40,8 @@ struct BorderEdge {
   std::array<Vec3, 2> normal{};       ///< unit; zero: none
 };
 
-/// The border of one mesh: edges that a triangle uses and no other triangle uses the other way, by index.
+/// The border of one mesh: edges that a triangle uses and no other triangle uses the other way. Vertices at
+/// one place are taken for one.
 struct Border {
   std::vector<BorderEdge> edges;
   Vec2 low, high;  ///< box in plan
@@ -58,8 +61,10 @@ struct Sheet {
 Sheet take_walls_off(const Mesh& mesh);
 
 /// The border of the sheet's surface, in order of triangle. `normals`: one a vertex, or none. Where walls of
-/// the sheet hang from a border edge (they have it as an edge, and vertices exactly below its ends), the edge
-/// has a skirt down to the lowest of them.
-Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals);
+/// the sheet hang from a border edge (they have it as an edge, and stand along it on vertices exactly below
+/// its ends), the edge has a skirt down to the straight line between the lowest of these.
+/// `judged`: what check_conformity said of the sheet's surface, if it was asked; spares looking again.
+Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals,
+                 const ConformityReport* judged = nullptr);
 
 }  // namespace plumbline::oracle
