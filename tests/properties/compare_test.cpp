@@ -135,7 +135,8 @@ TEST(CompareResults, RunsThatAreGoneAreWorseAndNewOnesAreTold) {
       if (gate["run"] != id) kept.push_back(gate);
     root["gates"] = kept;
   });
-  EXPECT_THAT(lines(compare_texts(sound_results(), fewer)), ElementsAre("worse " + id + ": run judged → gone"))
+  EXPECT_THAT(lines(compare_texts(sound_results(), fewer)),
+              ElementsAre("worse " + id + ": run judged → gone"))
       << "and not its gates besides";
   const auto gained = lines(compare_texts(fewer, sound_results()));
   EXPECT_THAT(gained, ElementsAre("changed " + id + ": run — → new"));
