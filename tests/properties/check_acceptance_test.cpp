@@ -107,7 +107,9 @@ TEST(CheckAcceptance, FilesAreWhatTheirGeneratorWrites) {
   EXPECT_LT(bytes, 200'000u);
   for (const auto& entry : fs::recursive_directory_iterator(kData)) {
     const std::string name = entry.path().lexically_relative(kData).generic_string();
-    if (entry.is_regular_file() && name != "README.md") EXPECT_TRUE(files.contains(name)) << name;
+    if (entry.is_regular_file() && name != "README.md") {
+      EXPECT_TRUE(files.contains(name)) << name;
+    }
   }
 }
 

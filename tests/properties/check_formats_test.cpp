@@ -108,7 +108,9 @@ TEST_P(CheckFormats, SameSeamSameFindings) {
     EXPECT_EQ(found.at, format.y_up ? test::as_gltf(place) : place) << "in the file's own axes";
   }
   EXPECT_EQ(verdict.conformity, (oracle::ConformityCounts{2, 2}));
-  if (format.y_up) EXPECT_THAT(verdict.notes, testing::Contains(HasSubstr("up is taken to be y")));
+  if (format.y_up) {
+    EXPECT_THAT(verdict.notes, testing::Contains(HasSubstr("up is taken to be y")));
+  }
 }
 
 TEST_P(CheckFormats, SoundTwinIsSound) {
