@@ -8,7 +8,6 @@
 
 #include "oracle/conformity_parts.h"
 #include "oracle/plan_weld.h"
-#include "oracle/predicates.h"
 
 namespace plumbline::oracle {
 namespace {
@@ -29,7 +28,7 @@ bool is_wall(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (ab && a.z != b.z) || (bc && b.z != c.z) || (ca && c.z != a.z);
 }
 
-/// Walls by the plan points between which they stand.
+/// Walls by the two plan points that they stand on.
 class Walls {
  public:
   Walls(const Mesh& mesh, std::span<const std::uint32_t> walls) : points_(walls.size() * 2 + 16) {
@@ -40,19 +39,16 @@ class Walls {
         const std::uint32_t a = points_.number(*corner[k]), b = points_.number(*corner[(k + 1) % 3]);
         edges_.push_back({std::min(a, b), std::max(a, b)});
       }
-      std::sort(corner.begin(), corner.end(),
-                [](const Vec3* p, const Vec3* q) { return before_in_plan(plan_of(*p), plan_of(*q)); });
-      const std::uint32_t from = number(*corner[0]), to = number(*corner[2]);
-      for (const Vec3* p : corner) {
-        const std::uint32_t at = number(*p);
-        if (at == from) reaches_.push_back({from, to, p->z});
-        if (at == to) reaches_.push_back({to, from, p->z});
+      // Two plan points: one under two of the corners, one under the third.
+      std::array<std::uint32_t, 3> at{};
+      for (std::size_t k = 0; k < 3; ++k) at[k] = plan_.number({corner[k]->x, corner[k]->y, 0});
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t to = at[k] != at[(k + 1) % 3] ? at[(k + 1) % 3] : at[(k + 2) % 3];
+        reaches_.push_back({at[k], to, corner[k]->z});
       }
     }
     std::sort(edges_.begin(), edges_.end());
-    std::sort(reaches_.begin(), reaches_.end(),
-              [](const Reach& a, const Reach& b) { return a.at < b.at || (a.at == b.at && a.z < b.z); });
-    known_ = plan_.size();
+    std::sort(reaches_.begin(), reaches_.end(), before);
   }
 
   /// Whether a wall has the edge; then `foot` holds the lowest heights below its two ends, of the walls that
@@ -66,34 +62,30 @@ class Walls {
   }
 
  private:
-  /// A wall that ends over plan point `at` at height z, and runs from there to plan point `to`.
+  /// A wall that stands over plan points `at` and `to`, and has a corner at height z over the first.
   struct Reach {
     std::uint32_t at = 0, to = 0;
     double z = 0;
   };
+  static bool before(const Reach& a, const Reach& b) {
+    if (a.at != b.at) return a.at < b.at;
+    return a.to != b.to ? a.to < b.to : a.z < b.z;
+  }
 
-  std::uint32_t number(const Vec3& p) { return plan_.number({p.x, p.y, 0}); }
-
-  /// The lowest height below `end` of walls that run from there along the edge to `other`. Another border
-  /// edge's walls, which meet these at the corner, may reach deeper.
+  /// The lowest height below `end` of walls that run from there to `other`. Another border edge's walls,
+  /// which meet these at the corner, may reach deeper.
   bool lowest(const Vec3& end, const Vec3& other, double& z) {
-    const std::uint32_t at = number(end);
-    if (at >= known_) return false;
-    auto reach = std::lower_bound(reaches_.begin(), reaches_.end(), at,
-                                  [](const Reach& r, std::uint32_t point) { return r.at < point; });
-    for (; reach != reaches_.end() && reach->at == at; ++reach) {
-      const Vec2 to{plan_[reach->to].x, plan_[reach->to].y};
-      if (to != plan_of(other) && !inside_segment(plan_of(end), plan_of(other), to)) continue;
-      z = reach->z;
-      return true;
-    }
-    return false;
+    const Reach wanted{plan_.number({end.x, end.y, 0}), plan_.number({other.x, other.y, 0}),
+                       -std::numeric_limits<double>::infinity()};
+    const auto reach = std::lower_bound(reaches_.begin(), reaches_.end(), wanted, before);
+    if (reach == reaches_.end() || reach->at != wanted.at || reach->to != wanted.to) return false;
+    z = reach->z;
+    return true;
   }
 
   detail::PointTable points_;
   detail::PointTable plan_{16};
-  std::size_t known_ = 0;
-  std::vector<Reach> reaches_;  // by point, then height
+  std::vector<Reach> reaches_;  // sorted
   std::vector<detail::VertexPair> edges_;
 };
 

@@ -61,8 +61,8 @@ struct Sheet {
 Sheet take_walls_off(const Mesh& mesh);
 
 /// The border of the sheet's surface, in order of triangle. `normals`: one a vertex, or none. Where walls of
-/// the sheet hang from a border edge (they have it as an edge, and stand along it on vertices exactly below
-/// its ends), the edge has a skirt down to the straight line between the lowest of these.
+/// the sheet hang from a border edge (they have it as an edge, and stand along it from end to end), the edge
+/// has a skirt down to the straight line between their lowest corners below its ends.
 /// `judged`: what check_conformity said of the sheet's surface, if it was asked; spares looking again.
 Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals,
                  const ConformityReport* judged = nullptr);
