@@ -33,6 +33,9 @@ void move_to(Mesh& mesh, const Vec3& from, const Vec3& to) {
   }
 }
 
+/// The mean of a gap of the least numbers there are (an ulp at height 0) may round to none.
+constexpr double kVanishing = 0x1p-1000;
+
 /// What one gap must be.
 struct Wanted {
   Vec2 at;
@@ -54,7 +57,7 @@ std::optional<Tally> judge(const Wanted& wanted, const std::optional<oracle::Sea
   }
   const std::size_t uncovered = wanted.covered ? 0 : 1;
   const bool counts = seam->uncovered == uncovered && seam->t_junctions == (wanted.t_junction ? 1u : 0u) &&
-                      (sign == 0 || seam->mean_abs_gap_m > 0);
+                      (std::fabs(wanted.gap_m) <= kVanishing || seam->mean_abs_gap_m > 0);
   return tally(false, !seam->gaps.empty(), size && counts, place, seam->gaps.size() > 1);
 }
 

@@ -245,7 +245,7 @@ TEST(CheckAcceptance, Complaint05_GapExceedsTheSkirtBetweenLevels) {
 
   asked.skirt_m = 30.1;
   const CheckVerdict deep = judged(asked);
-  EXPECT_TRUE(deep.sound) << "30 m reach exactly";
+  EXPECT_TRUE(deep.sound) << "30 m and half a step";
   for (const verdict::SeamVerdict& one : deep.seams) EXPECT_NE(one.state, SeamState::open);
 
   CheckRequest twin = request("05_gap_exceeds_skirt/tiles_twin");
