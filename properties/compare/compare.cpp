@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -22,7 +21,8 @@ using verdict::Comparison;
 using verdict::Difference;
 using verdict::Matter;
 
-/// Counts of faults stand before measures, whose weight is a relative change of at most 2.
+/// Counts of findings (conformity's stand alone, or in its group) come before measures, whose weight is a
+/// relative change of at most 2.
 constexpr double kCountsFirst = 1e9;
 constexpr const char* kNothing = "—";
 
@@ -106,7 +106,9 @@ class Comparer {
   static double weight(const Reading& a, const Reading& b, verdict::Direction direction) {
     if (std::isnan(a.value) || std::isnan(b.value)) return 2 * kCountsFirst;
     const double change = std::fabs(b.value - a.value);
-    if (a.counted && b.counted && direction != verdict::Direction::neither) return kCountsFirst + change;
+    const bool finding = a.path.find('.') == std::string::npos || a.path.starts_with("conformity.");
+    if (finding && a.counted && b.counted && direction != verdict::Direction::neither)
+      return kCountsFirst + change;
     return change / std::max(std::fabs(a.value), std::fabs(b.value));
   }
   static std::string words(const Reading& reading) {
@@ -199,9 +201,9 @@ class Comparer {
     using Key = std::pair<std::string_view, std::string_view>;  // run, name
     std::map<Key, std::vector<const GateReading*>> of_key;      // the first is the last element
     std::set<const GateReading*> left;
-    for (const GateReading& gate : after_.gates | std::views::reverse) {
-      of_key[{gate.run, gate.name}].push_back(&gate);
-      left.insert(&gate);
+    for (auto gate = after_.gates.rbegin(); gate != after_.gates.rend(); ++gate) {
+      of_key[{gate->run, gate->name}].push_back(&*gate);
+      left.insert(&*gate);
     }
     std::map<std::pair<std::string_view, bool>, std::size_t> gone, fresh;
     for (const GateReading& gate : before_.gates) {

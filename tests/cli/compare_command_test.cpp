@@ -86,8 +86,8 @@ TEST_F(CompareCommand, MarkdownAndJson) {
   const Outcome outcome =
       compare(results(0, 1.5, 100), results(12, 1.5, 100), {"--markdown", "--json", "d.json"});
   EXPECT_THAT(outcome.out,
-              StartsWith("### plumbline: worse\n\n1 worse, 0 better, 0 changed, 4 the same in 1 run.\n"));
-  EXPECT_THAT(outcome.out, HasSubstr("| **worse** | hills.down.full.1 | crack | 0 | 12 | +12 |"));
+              StartsWith("### plumbline: worse\n\n1 worse, 0 better, 0 changed, 5 the same in 1 run.\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("| **worse** | `hills.down.full.1` | `crack` | 0 | 12 | +12 |"));
   const json differences = json::parse(read_file(folder() / "d.json"));
   EXPECT_EQ(differences["schema"], "plumbline.compare/1");
   EXPECT_EQ(differences["differences"][0]["what"], "crack");

@@ -135,7 +135,8 @@ TEST(CompareResults, RunsThatAreGoneAreWorseAndNewOnesAreTold) {
       if (gate["run"] != id) kept.push_back(gate);
     root["gates"] = kept;
   });
-  EXPECT_THAT(lines(compare_texts(sound_results(), fewer)), ElementsAre("worse " + id + ": run judged → gone"))
+  EXPECT_THAT(lines(compare_texts(sound_results(), fewer)),
+              ElementsAre("worse " + id + ": run judged → gone"))
       << "and not its gates besides";
   const auto gained = lines(compare_texts(fewer, sound_results()));
   EXPECT_THAT(gained, ElementsAre("changed " + id + ": run — → new"));
@@ -176,6 +177,11 @@ TEST(CompareResults, VerdictAndVacuousComeFirst) {
       ElementsAre("worse : finished finished → interrupted", "worse : x: no frame — → judged nothing",
                   "worse canyon.orbit.full.1: hole 0 → 2", "worse canyon.orbit.full.1: largest_gap_m 0 → 5",
                   "changed : yardstick null → other"));
+}
+
+TEST(CompareResults, WhatWasFlownIsToldFactByFact) {
+  EXPECT_THAT(spoiled_lines([](Json& root) { root["terrains"][0]["columns"] = 257; }),
+              ElementsAre("changed : columns of canyon 513 → 257"));
 }
 
 TEST(CompareResults, FramesMayDifferUnderAnEqualSummary) {
