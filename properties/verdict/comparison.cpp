@@ -53,6 +53,17 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, Size>& 
   return std::ranges::find(words, word) != words.end();
 }
 
+bool is_about_findings(const Difference& one) {
+  if (one.matter == Matter::finding || one.matter == Matter::vacuous) return true;
+  if (one.matter != Matter::figure) return false;
+  if (one.what.starts_with("conformity.") || one.what == "findings_total" || one.what == "tile_faults")
+    return true;
+  const auto known = figures();
+  const auto figure = std::ranges::find(known, one.what, &Figure::path);
+  return figure != known.end() && figure->unit == "count" && one.what.find('.') == std::string::npos &&
+         figure_direction(one.what) != Direction::neither;
+}
+
 }  // namespace
 
 Direction figure_direction(std::string_view path) {
@@ -115,6 +126,12 @@ std::string_view Comparison::word() const {
   if (differences.empty()) return "unchanged";
   if (count(Change::worse) > 0) return "worse";
   return count(Change::better) > 0 ? "better" : "changed";
+}
+
+Comparison findings_only(Comparison comparison) {
+  std::erase_if(comparison.differences, [](const Difference& one) { return !is_about_findings(one); });
+  comparison.notes.emplace_back("findings and their counts only: other differences are left out");
+  return comparison;
 }
 
 }  // namespace plumbline::verdict

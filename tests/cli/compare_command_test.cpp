@@ -110,6 +110,22 @@ TEST_F(CompareCommand, TellsNewFindingsOfAChecksFile) {
   EXPECT_EQ(compare(check(known + "," + fresh), check(known)).status, 0);
 }
 
+TEST_F(CompareCommand, FindingsAlone) {
+  const auto check = [](int cracks, double error_m) {
+    return json{{"schema", "plumbline.check/1"},     {"verdict", "faulty"},
+                {"meshes", {{{"file", "a.ply"}}}},   {"findings", json::array()},
+                {"conformity", {{"crack", cracks}}}, {"vertical_m", {{"max", error_m}}}}
+        .dump();
+  };
+  EXPECT_EQ(compare(check(1, 2), check(1, 3)).status, 1);
+  const Outcome moved = compare(check(1, 2), check(1, 3), {"--findings"});
+  EXPECT_EQ(moved.status, 0) << "a figure moved, no finding is new";
+  EXPECT_THAT(moved.out, HasSubstr("findings and their counts only"));
+  EXPECT_EQ(compare(check(1, 2), check(2, 2), {"--findings"}).status, 1);
+  EXPECT_EQ(compare(results(0, 1.5, 100), results(0, 2.5, 120), {"--findings", "--any-change"}).status, 0);
+  EXPECT_EQ(compare(results(0, 1.5, 100), results(1, 1.5, 100), {"--findings"}).status, 1);
+}
+
 TEST_F(CompareCommand, ARunIsItsOwnTwin) {
   put("suite.toml", SuiteText{}.text());
   ASSERT_EQ(run({"run", "suite.toml", "--out", "a", "--quiet", "--no-pictures"}).status, 0);
