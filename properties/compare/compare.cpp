@@ -137,14 +137,32 @@ class Comparer {
     return matter == Matter::figure && one_sided_.count(path) > 0;
   }
 
+  static bool has_group(const std::set<std::string, std::less<>>& paths, std::string_view path) {
+    for (std::size_t dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.', dot + 1))
+      if (paths.count(path.substr(0, dot)) > 0) return true;
+    return false;
+  }
+
   void find_one_sided_figures() {
     Tally<std::string> paths;
-    for (const Subject& subject : before_.subjects)
-      for (const Reading& reading : subject.readings) ++paths[reading.path].first;
-    for (const Subject& subject : after_.subjects)
-      for (const Reading& reading : subject.readings) ++paths[reading.path].second;
+    std::set<std::string, std::less<>> silent_before, silent_after;  // null somewhere, alone or as a group
+    std::set<std::string, std::less<>> judged;
+    const auto take = [&](const ResultFile& file, auto& silent, auto side) {
+      for (const Subject& subject : file.subjects) {
+        for (const Reading& reading : subject.readings) {
+          ++(paths[reading.path].*side);
+          (reading.kind == Reading::Kind::not_judged ? silent : judged).insert(reading.path);
+        }
+      }
+    };
+    using Counts = std::pair<std::size_t, std::size_t>;
+    take(before_, silent_before, &Counts::first);
+    take(after_, silent_after, &Counts::second);
     for (const auto& [path, times] : paths) {
       if (times.first > 0 && times.second > 0) continue;
+      // Nothing to tell; or a whole group that was not judged there, so that none of its figures stands.
+      if (judged.count(path) == 0 || has_group(times.first > 0 ? silent_after : silent_before, path))
+        continue;
       one_sided_.insert(path);
       Difference& one = add(difference(Change::changed, Matter::setting, "", path));
       one.before_text = times.first > 0 ? "is told" : kNothing;

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 3> kDescribe{"triangles", "triangles_max"
 constexpr std::array<std::string_view, 1> kLessIsWorse{"shape.min_quality"};
 
 /// Of checks: last words of paths whose growth is bad whatever they stand in.
-constexpr std::array<std::string_view, 32> kBadWords{"max",
+constexpr std::array<std::string_view, 34> kBadWords{"max",
                                                      "certain_max",
                                                      "rms",
                                                      "mean",
@@ -45,6 +45,8 @@ constexpr std::array<std::string_view, 32> kBadWords{"max",
                                                      "faulty",
                                                      "broken",
                                                      "open",
+                                                     "sufficient_skirt_m",
+                                                     "samples_max",
                                                      "least",
                                                      "most"};
 
@@ -74,7 +76,8 @@ Direction figure_direction(std::string_view path) {
   const auto known = figures();
   if (std::ranges::find(known, path, &Figure::path) != known.end()) return Direction::more_is_worse;
   const std::string_view last = path.substr(path.rfind('.') + 1);
-  if (last == "min_quality") return Direction::less_is_worse;
+  if (last == "min_quality" || last == "mean_quality" || last == "least_angle_deg")
+    return Direction::less_is_worse;
   return is_one_of(last, kBadWords) ? Direction::more_is_worse : Direction::neither;
 }
 
