@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "oracle/conformity_parts.h"
 #include "oracle/plan_weld.h"
@@ -144,17 +145,25 @@ ExactHeight plain(double z) { return {z, z, 0, 0}; }
 
 Sheet take_walls_off(const Mesh& mesh) {
   Sheet sheet;
-  sheet.surface.positions = mesh.positions;
-  sheet.surface.triangles.reserve(mesh.triangles.size());
-  sheet.triangle_of.reserve(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& c = mesh.triangles[t];
-    if (sound(mesh, c) && is_wall(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]])) {
+    if (sound(mesh, c) && is_wall(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]))
       sheet.walls.push_back(t);
-    } else {
-      sheet.surface.triangles.push_back(c);
-      sheet.triangle_of.push_back(t);
+  }
+  sheet.surface = mesh;
+  sheet.triangle_of.resize(mesh.triangles.size());
+  std::iota(sheet.triangle_of.begin(), sheet.triangle_of.end(), 0u);
+  if (sheet.walls.empty()) return sheet;
+  sheet.surface.triangles.clear();
+  sheet.triangle_of.clear();
+  auto wall = sheet.walls.begin();
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (wall != sheet.walls.end() && *wall == t) {
+      ++wall;
+      continue;
     }
+    sheet.surface.triangles.push_back(mesh.triangles[t]);
+    sheet.triangle_of.push_back(t);
   }
   return sheet;
 }
