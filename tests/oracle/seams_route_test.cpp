@@ -191,8 +191,8 @@ void meet(const BorderEdge& e, const BorderEdge& f, SlowSeam& seam) {
     if (gap > 0) covered = e.has_skirt && height(e.foot, s) <= height(f.height, t);
     if (gap < 0) covered = f.has_skirt && height(f.foot, t) <= height(e.height, s);
     if (!covered) (gap == 0 ? place.open_touch : place.open_gap) = true;
-    const double more = CGAL::to_double(size(gap) - size(place.gap));
-    if (std::fabs(more) < kSameSize && gap != place.gap) {
+    const Rational more = size(gap) - size(place.gap);
+    if (gap * place.gap < 0 && size(more) < kSameSize) {
       place.ambiguous = true;
     } else if (more > 0) {
       place.ambiguous = false;
