@@ -244,7 +244,10 @@ void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
     worst.resize(std::min<std::size_t>(worst.size(), 1));
     if (!worst.empty() && worst.front()->sign == 0) worst.clear();
   }
-  exam.verdict.findings_total += worst.size() - std::min(worst.size(), kGapsListed);
+  for (std::size_t k = kGapsListed; k < worst.size(); ++k) {
+    ++exam.verdict.findings_total;
+    ++exam.verdict.totals[worst[k]->sign == 0 ? FindingCode::t_junction : FindingCode::crack];
+  }
   for (std::size_t k = 0; k < std::min(worst.size(), kGapsListed); ++k) {
     const oracle::SeamGap& gap = *worst[k];
     verdict::CheckFinding found;

@@ -84,6 +84,7 @@ void gather(Examination& exam, std::vector<CheckFinding> more) {
   for (const CheckFinding& found : all) {
     verdict.sound = verdict.sound && !makes_faulty(found, exam.request.strict);
     verdict.tile_faults += found.finding.code == FindingCode::tile_encoding;
+    ++verdict.totals[found.finding.code];
   }
   verdict.findings_total += all.size();
   std::stable_sort(all.begin(), all.end(), [](const CheckFinding& a, const CheckFinding& b) {

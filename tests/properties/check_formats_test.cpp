@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "properties/check/check.h"
+#include "scenarios/whole_file.h"
 #include "tests/properties/corpus_parts.h"
 #include "tests/scenarios/support.h"
 
@@ -148,17 +149,19 @@ TEST(CheckFormatsTogether, QuantizedMesh) {
   constexpr double kEnd = kTileSteps;
   const double second =
       4 * (kEnd - 24000) / (kEnd - 16000);  // the western edge's height at the second vertex
-  folder.write("10/1066/766.terrain",
-               encode_quantized_mesh(test::fan_tile(
-                   grid, west, {{0, 0, 0}, {kEnd, 0, 0}, {kEnd, 16000, 4}, {kEnd, kEnd, 0}, {0, kEnd, 0}})));
-  folder.write("10/1067/766.terrain", encode_quantized_mesh(test::fan_tile(grid, east,
-                                                                           {{0, 0, 0},
-                                                                            {kEnd, 0, 0},
-                                                                            {kEnd, kEnd, 0},
-                                                                            {0, kEnd, 0},
-                                                                            {0, 24000, 3},
-                                                                            {0, 16000, 4},
-                                                                            {0, 8000, 3}})));
+  write_whole_file(
+      folder.path() / "10/1066/766.terrain",
+      encode_quantized_mesh(test::fan_tile(
+          grid, west, {{0, 0, 0}, {kEnd, 0, 0}, {kEnd, 16000, 4}, {kEnd, kEnd, 0}, {0, kEnd, 0}})));
+  write_whole_file(folder.path() / "10/1067/766.terrain",
+                   encode_quantized_mesh(test::fan_tile(grid, east,
+                                                        {{0, 0, 0},
+                                                         {kEnd, 0, 0},
+                                                         {kEnd, kEnd, 0},
+                                                         {0, kEnd, 0},
+                                                         {0, 24000, 3},
+                                                         {0, 16000, 4},
+                                                         {0, 8000, 3}})));
   const CheckVerdict verdict = judged({folder.path()});
   EXPECT_FALSE(verdict.sound);
   ASSERT_EQ(verdict.seams.size(), 1u);

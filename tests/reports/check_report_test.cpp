@@ -98,7 +98,7 @@ TEST(CheckText, SeamStatesAreNeverMixed) {
   EXPECT_THAT(text, HasSubstr("covered by a skirt: 9/533/383.terrain | 9/533/384.terrain"));
   EXPECT_THAT(text, HasSubstr("watertight: 9/534/383.terrain | 9/534/384.terrain"));
   EXPECT_THAT(text,
-              HasSubstr("A skirt of 12.2 m below every border covers every gap between meshes; the worst "
+              HasSubstr("A skirt of 12.3 m below every border covers every gap between meshes; the worst "
                         "pair is 9/533/383.terrain and 9/534/383.terrain."));
 }
 
