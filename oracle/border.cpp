@@ -8,7 +8,6 @@
 
 #include "oracle/conformity_parts.h"
 #include "oracle/plan_weld.h"
-#include "oracle/predicates.h"
 
 namespace plumbline::oracle {
 namespace {
@@ -22,112 +21,121 @@ bool sound(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 
 Vec2 plan_of(const Vec3& p) { return {p.x, p.y}; }
 
+/// Two corners over one plan point, the third elsewhere: a vertical side.
 bool is_wall(const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (a == b || b == c || c == a) return false;
-  if (orientation(plan_of(a), plan_of(b), plan_of(c)).value != 0) return false;
-  // With area in space: not on one line there, either. In the vertical plane of the three that is a question
-  // of heights over the plan line; over one plan point there is no area.
-  const Vec3* low = &a;
-  const Vec3* high = &a;
-  for (const Vec3* p : {&b, &c}) {
-    if (before_in_plan(plan_of(*p), plan_of(*low))) low = p;
-    if (before_in_plan(plan_of(*high), plan_of(*p))) high = p;
-  }
-  if (plan_of(*low) == plan_of(*high)) return false;
-  for (const Vec3* p : {&a, &b, &c}) {
-    if (p == low || p == high) continue;
-    if (plan_of(*p) == plan_of(*low)) return p->z != low->z;
-    if (plan_of(*p) == plan_of(*high)) return p->z != high->z;
-    return height_gap(*low, *high, *p).sign != 0;
-  }
-  return false;
+  const bool ab = plan_of(a) == plan_of(b), bc = plan_of(b) == plan_of(c), ca = plan_of(c) == plan_of(a);
+  if (ab && bc) return false;  // over one plan point: no area
+  return (ab && a.z != b.z) || (bc && b.z != c.z) || (ca && c.z != a.z);
 }
 
-/// Walls by the plan points that they stand on.
+/// Walls by the two plan points that they stand on.
 class Walls {
  public:
   Walls(const Mesh& mesh, std::span<const std::uint32_t> walls) : points_(walls.size() * 2 + 16) {
     for (const std::uint32_t t : walls) {
-      std::array<std::uint32_t, 3> corner{};
+      std::array<const Vec3*, 3> corner{};
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = &mesh.positions[mesh.triangles[t][k]];
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3& p = mesh.positions[mesh.triangles[t][k]];
-        corner[k] = plan_.number({p.x, p.y, 0});
-        if (corner[k] == lowest_.size()) lowest_.push_back(std::numeric_limits<double>::infinity());
-        lowest_[corner[k]] = std::min(lowest_[corner[k]], p.z);
-        points_.number(p);
-      }
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = points_.number(mesh.positions[mesh.triangles[t][k]]);
-        const std::uint32_t b = points_.number(mesh.positions[mesh.triangles[t][(k + 1) % 3]]);
+        const std::uint32_t a = points_.number(*corner[k]), b = points_.number(*corner[(k + 1) % 3]);
         edges_.push_back({std::min(a, b), std::max(a, b)});
+      }
+      // Two plan points: one under two of the corners, one under the third.
+      std::array<std::uint32_t, 3> at{};
+      for (std::size_t k = 0; k < 3; ++k) at[k] = plan_.number({corner[k]->x, corner[k]->y, 0});
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t to = at[k] != at[(k + 1) % 3] ? at[(k + 1) % 3] : at[(k + 2) % 3];
+        reaches_.push_back({at[k], to, corner[k]->z});
       }
     }
     std::sort(edges_.begin(), edges_.end());
+    std::sort(reaches_.begin(), reaches_.end(), before);
   }
 
-  /// Whether a wall has the edge; then `foot` holds the lowest heights below its two ends.
+  /// Whether a wall has the edge; then `foot` holds the lowest heights below its two ends, of the walls that
+  /// stand along it.
   bool hang_from(const Vec3& a, const Vec3& b, std::array<double, 2>& foot) {
     if (edges_.empty()) return false;
     const std::uint32_t i = points_.number(a), j = points_.number(b);
     if (!std::binary_search(edges_.begin(), edges_.end(), detail::VertexPair{std::min(i, j), std::max(i, j)}))
       return false;
-    std::size_t k = 0;
-    for (const Vec3* p : {&a, &b}) {
-      const std::uint32_t point = plan_.number({p->x, p->y, 0});
-      if (point >= lowest_.size()) return false;
-      foot[k++] = lowest_[point];
-    }
-    return foot[0] < a.z && foot[1] < b.z;
+    return lowest(a, b, foot[0]) && lowest(b, a, foot[1]) && foot[0] < a.z && foot[1] < b.z;
   }
 
  private:
+  /// A wall that stands over plan points `at` and `to`, and has a corner at height z over the first.
+  struct Reach {
+    std::uint32_t at = 0, to = 0;
+    double z = 0;
+  };
+  static bool before(const Reach& a, const Reach& b) {
+    if (a.at != b.at) return a.at < b.at;
+    return a.to != b.to ? a.to < b.to : a.z < b.z;
+  }
+
+  /// The lowest height below `end` of walls that run from there to `other`. Another border edge's walls,
+  /// which meet these at the corner, may reach deeper.
+  bool lowest(const Vec3& end, const Vec3& other, double& z) {
+    const Reach wanted{plan_.number({end.x, end.y, 0}), plan_.number({other.x, other.y, 0}),
+                       -std::numeric_limits<double>::infinity()};
+    const auto reach = std::lower_bound(reaches_.begin(), reaches_.end(), wanted, before);
+    if (reach == reaches_.end() || reach->at != wanted.at || reach->to != wanted.to) return false;
+    z = reach->z;
+    return true;
+  }
+
   detail::PointTable points_;
   detail::PointTable plan_{16};
-  std::vector<double> lowest_;  // per plan point
+  std::vector<Reach> reaches_;  // sorted
   std::vector<detail::VertexPair> edges_;
 };
 
-/// A mesh of more border edges than this share of its edges is looked at again by position.
-constexpr std::size_t kMostBorderShare = 16;
-
-/// A vertex number that was turned back already.
-constexpr std::uint32_t kNamed = 1u << 31u;
-
-/// As match_by_index, with vertices at one place taken for one. Uses name the given vertices.
-detail::IndexMatch match_by_place(const Mesh& mesh, std::span<const std::uint8_t> treatment) {
-  const std::vector<std::uint32_t> number = detail::weld_all(mesh, true);
-  Mesh welded;
-  std::vector<std::uint32_t> first;
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    if (number[v] == detail::kNone || number[v] < first.size()) continue;
-    first.push_back(v);
+/// Formats that carry normals or colours double their vertices along creases: by index these are border, too.
+/// Cancels opposite edges between equal places.
+void cancel_by_place(const Mesh& mesh, std::vector<LooseEdge>& left_over) {
+  detail::PointTable table(left_over.size());
+  struct Placed {
+    std::uint64_t key = 0;  // smaller place, larger place
+    std::uint32_t use = 0;
+    bool upwards = false;
+  };
+  std::vector<Placed> order;
+  order.reserve(left_over.size());
+  for (std::uint32_t k = 0; k < left_over.size(); ++k) {
+    const std::uint32_t u = table.number(mesh.positions[left_over[k].from]),
+                        v = table.number(mesh.positions[left_over[k].to]);
+    order.push_back({std::uint64_t{std::min(u, v)} << 32 | std::max(u, v), k, u < v});
   }
-  welded.positions.resize(first.size());
-  for (std::size_t k = 0; k < first.size(); ++k) welded.positions[k] = mesh.positions[first[k]];
-  std::vector<std::uint8_t> treated(treatment.begin(), treatment.end());
-  treated.resize(mesh.triangles.size(), detail::kNormal);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    auto corners = mesh.triangles[t];
-    if ((treated[t] & detail::kLeftOut) != 0) {
-      corners = {0, 0, 0};
-    } else {
-      for (std::uint32_t& v : corners) v = number[v];
-      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-        treated[t] = detail::kLeftOut;
+  std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
+    return a.key < b.key || (a.key == b.key && a.use < b.use);
+  });
+  std::vector<bool> kept(left_over.size(), false);
+  for (std::size_t i = 0; i < order.size();) {
+    std::array<std::size_t, 2> uses{};
+    std::size_t end = i;
+    for (; end < order.size() && order[end].key == order[i].key; ++end) ++uses[order[end].upwards ? 1 : 0];
+    for (; i < end; ++i) {
+      const std::size_t way = order[i].upwards ? 1 : 0;
+      if (uses[way] <= uses[1 - way]) continue;
+      kept[order[i].use] = true;
+      --uses[way];
     }
-    welded.triangles.push_back(corners);
   }
-  detail::IndexMatch match = detail::match_by_index(welded, treated);
-  // Back to the vertices that the triangle itself names.
-  for (detail::EdgeUse& use : match.left_over) {
-    for (const std::uint32_t v : mesh.triangles[use.triangle]) {
-      if (number[v] == use.from) use.from = v | kNamed;
-      if (number[v] == use.to) use.to = v | kNamed;
-    }
-    use.from &= ~kNamed;
-    use.to &= ~kNamed;
+  std::size_t next = 0;
+  std::erase_if(left_over, [&](const LooseEdge&) { return !kept[next++]; });
+}
+
+/// Edges without a twin, by index. Triangles that the input layer faults have no border worth comparing.
+std::vector<LooseEdge> loose_edges(const Mesh& surface) {
+  std::vector<std::uint8_t> treatment;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (sound(surface, surface.triangles[t])) continue;
+    treatment.resize(surface.triangles.size(), detail::kNormal);
+    treatment[t] = detail::kLeftOut;
   }
-  return match;
+  std::vector<LooseEdge> out;
+  for (const detail::EdgeUse& use : detail::match_by_index(surface, treatment).left_over)
+    out.push_back({use.from, use.to, use.triangle});
+  return out;
 }
 
 ExactHeight plain(double z) { return {z, z, 0, 0}; }
@@ -151,24 +159,21 @@ Sheet take_walls_off(const Mesh& mesh) {
   return sheet;
 }
 
-Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals) {
+Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals,
+                 const ConformityReport* judged) {
   Border border;
-  // Triangles that the input layer faults have no border worth comparing.
-  std::vector<std::uint8_t> treatment;
-  for (std::size_t t = 0; t < sheet.surface.triangles.size(); ++t) {
-    if (sound(mesh, sheet.surface.triangles[t])) continue;
-    treatment.resize(sheet.surface.triangles.size(), detail::kNormal);
-    treatment[t] = detail::kLeftOut;
+  std::vector<LooseEdge> loose;
+  if (judged != nullptr && judged->loose_edges) {
+    loose = *judged->loose_edges;
+  } else {
+    loose = loose_edges(sheet.surface);
   }
-  detail::IndexMatch match = detail::match_by_index(sheet.surface, treatment);
-  // Formats that carry normals or colours double their vertices along creases: by index all of it is border.
-  const std::size_t edges = 3 * sheet.surface.triangles.size();
-  if (match.left_over.size() * kMostBorderShare > edges) match = match_by_place(sheet.surface, treatment);
+  cancel_by_place(mesh, loose);
   Walls walls(mesh, sheet.walls);
   constexpr double inf = std::numeric_limits<double>::infinity();
   border.low = {inf, inf};
   border.high = {-inf, -inf};
-  for (const detail::EdgeUse& use : match.left_over) {
+  for (const LooseEdge& use : loose) {
     BorderEdge edge;
     edge.vertices = {use.from, use.to};
     edge.triangle = sheet.triangle_of[use.triangle];

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "oracle/conformity.h"
 #include "scenarios/mesh.h"
 
 namespace plumbline::oracle {
@@ -24,6 +25,7 @@ struct ExactHeight {
     const double share = step / kSteps;
     return (step == 0 ? low : share == 1 ? high : low * (1 - share) + high * share) - drop;
   }
+  [[nodiscard]] bool plain() const { return step == 0 && drop == 0; }
   friend bool operator==(const ExactHeight&, const ExactHeight&) = default;
 };
 
@@ -38,7 +40,8 @@ struct BorderEdge {
   std::array<Vec3, 2> normal{};       ///< unit; zero: none
 };
 
-/// The border of one mesh: edges that a triangle uses and no other triangle uses the other way, by index.
+/// The border of one mesh: edges that a triangle uses and no other triangle uses the other way. Vertices at
+/// one place are taken for one.
 struct Border {
   std::vector<BorderEdge> edges;
   Vec2 low, high;  ///< box in plan
@@ -48,17 +51,20 @@ struct Border {
 struct Sheet {
   Mesh surface;                            ///< all positions; the triangles that are no walls
   std::vector<std::uint32_t> triangle_of;  ///< per triangle of `surface`: its index in the mesh
-  std::vector<std::uint32_t> walls;        ///< triangles of the mesh without plan area, but with area
+  std::vector<std::uint32_t> walls;        ///< triangles of the mesh with a vertical side
 };
 
-/// Takes the walls off: triangles of three different points whose plan is exactly a segment. Skirts, cliffs
-/// and vertical faces are made of them; O1 would call each degenerate. Decided exactly. Triangles with a bad
-/// index or a corner that is not finite stay in the surface, where O1 reports them.
+/// Takes the walls off: triangles of which two corners stand over one plan point at different heights, and
+/// the third elsewhere. Skirts and cliffs are made of them; O1 would call each degenerate. Triangles that are
+/// flat in plan otherwise, three corners over three points of a line, hold a border together and stay: O1
+/// tells them. So do triangles with a bad index or a corner that is not finite.
 Sheet take_walls_off(const Mesh& mesh);
 
 /// The border of the sheet's surface, in order of triangle. `normals`: one a vertex, or none. Where walls of
-/// the sheet hang from a border edge (they have it as an edge, and vertices exactly below its ends), the edge
-/// has a skirt down to the lowest of them.
-Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals);
+/// the sheet hang from a border edge (they have it as an edge, and stand along it from end to end), the edge
+/// has a skirt down to the straight line between their lowest corners below its ends.
+/// `judged`: what check_conformity said of the sheet's surface, if it was asked; spares looking again.
+Border border_of(const Mesh& mesh, const Sheet& sheet, std::span<const Vec3> normals,
+                 const ConformityReport* judged = nullptr);
 
 }  // namespace plumbline::oracle

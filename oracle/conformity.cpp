@@ -44,6 +44,11 @@ class Check {
                           report_.findings);
     }
     report_.left_over_edges = match.left_over.size();
+    if (treatment_.empty()) {
+      std::vector<LooseEdge>& loose = report_.loose_edges.emplace();
+      loose.reserve(match.left_over.size());
+      for (const EdgeUse& use : match.left_over) loose.push_back({use.from, use.to, use.triangle});
+    }
     report_.counts.t_junction = seams.t_junctions;
     report_.counts.crack = seams.cracks;
     if (seams.residual.needs_regions) find_regions(mesh_, seams.residual, outline_is_free_, report_.findings);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "oracle/finding.h"
@@ -21,6 +23,12 @@ struct ConformityCounts {
   [[nodiscard]] std::size_t total() const;
 };
 
+/// A triangle's edge, in its direction.
+struct LooseEdge {
+  std::uint32_t from = 0, to = 0;  ///< vertices
+  std::uint32_t triangle = 0;
+};
+
 /// What check_conformity found: how many of each, and each with its place.
 struct ConformityReport {
   ConformityCounts counts;
@@ -28,6 +36,9 @@ struct ConformityReport {
   double largest_gap_m = 0;            ///< over cracks
   std::size_t left_over_edges = 0;     ///< edges that found no twin by index: what geometry had to look at
   std::size_t exact_orientations = 0;  ///< triangles whose orientation double could not tell
+  /// Edges that no other triangle has the other way, by index, in order of triangle. Nothing if triangles
+  /// were set aside.
+  std::optional<std::vector<LooseEdge>> loose_edges;
   [[nodiscard]] bool clean() const { return counts.total() == 0; }
 };
 

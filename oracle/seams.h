@@ -37,7 +37,7 @@ struct Seam {
   double normal_max_deg = 0;  ///< between the normals at vertices that both have
   Vec3 normal_at;
   std::size_t normals = 0;  ///< vertices that were compared; 0: none has normals
-  /// 0 uncovered and no gap: watertight; gaps, none of them uncovered: covered by a skirt; else open.
+  /// No gap: watertight; gaps, none of them uncovered: covered by a skirt; else open.
   [[nodiscard]] bool watertight() const { return gaps.empty(); }
 };
 
@@ -55,8 +55,11 @@ struct Slit {
   std::uint32_t vertex = 0;
 };
 /// Vertices of the first border that lie beside the second border, nearer than `within` plan units, but not
-/// on it (exactly). The widest is the place. Nothing if there is none. This is a measurement with a
-/// tolerance, for borders that were meant to meet; what does meet was decided above.
+/// on it (exactly). Beside means: an edge of the first border that ends there runs against the nearest edge
+/// of the second, within some 26 degrees, and not beyond that edge's ends; so that a side which leaves a
+/// corner that meshes share, or nearly share, is no slit. The widest is the place. Nothing if there is none.
+/// This is a measurement with a tolerance, for borders that were meant to meet; what does meet was decided
+/// above.
 std::optional<Slit> find_slit(const Border& first, const Border& second, double within);
 
 }  // namespace plumbline::oracle

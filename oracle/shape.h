@@ -41,8 +41,9 @@ struct EdgeLengths {
   double median = 0;    ///< nearest rank from below
   std::array<std::uint32_t, 2> shortest_vertices{};
 };
-/// Of edges whose ends differ in plan (`in_space`: that differ), in plan (in space). Triangles with a bad
-/// index or a non-finite corner are skipped.
+/// Of edges whose ends differ in plan, in plan; `in_space`: that differ, in space. Triangles with a bad
+/// index, and edges with a coordinate (in plan: x or y) that is not finite, are skipped. Of equally short
+/// ones the first in order of triangle.
 EdgeLengths edge_lengths(const Mesh& mesh, bool in_space);
 
 }  // namespace plumbline::oracle

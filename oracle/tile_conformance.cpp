@@ -51,7 +51,7 @@ class TileCheck {
     for (const TileSide side : kTileSides) edge_list(side);
     if (bad_triangles_.empty()) off_border();
     for (auto& corner : missing_corners_) out_.push_back(std::move(corner.second));
-    // Heights between reversed ends place no vertex.
+    // Where the range is upside down, every height is in the wrong place: one cause, one finding.
     if (bounds && header_is_finite_ && t_.min_height_m <= t_.max_height_m) places(*bounds);
     normals(bounds);
     if (t_.trailing_bytes > 0) {

@@ -43,7 +43,8 @@ inline constexpr double kSphereSlackM = 1e-3;
 /// All but sphere, center and normals into the ground are decided on whole numbers, exactly. Those need
 /// `bounds_deg`, are decided in double (places err by nanometres) and are not judged without it. A bad index
 /// leaves no hole behind it: then off_border is not judged; nor are vertices of `range` for sphere, edge_list
-/// and off_border. Vertices equal in u, v and height are one for off_border.
+/// and off_border; nor sphere and center where min > max. Vertices equal in u, v and height are one for
+/// off_border.
 std::vector<TileFinding> check_tile(const QuantizedMesh& tile, const std::optional<TileBounds>& bounds_deg);
 
 }  // namespace plumbline::oracle

@@ -22,7 +22,7 @@ struct VerticalError {
   /// The largest error at the samples under the mesh, edges included: what a mesh's maker mostly bounds.
   /// Never above `certain_max`; 0 if no sample lies there.
   double samples_max = 0;
-  Vec2 samples_at;  ///< the same for `samples_max`
+  Vec2 samples_at{};  ///< the same for `samples_max`
   friend bool operator==(const VerticalError&, const VerticalError&) = default;
 };
 

@@ -111,9 +111,11 @@ std::string image_part(const verdict::ImageVerdict& image, const std::optional<E
     out += "<div class=\"triptych\"><div>\n";
     for (const auto& [png, words] :
          {std::pair{&pictures->mesh, "the mesh, with its edges"}, std::pair{&pictures->error, "displacement"},
-          std::pair{&pictures->reference, "the reference"}})
+          std::pair{&pictures->reference, "the reference"}}) {
+      if (png->empty()) continue;
       out += fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
                          data_uri("image/png", *png), words, words);
+    }
     out += "</div></div>\n";
   }
   return out;

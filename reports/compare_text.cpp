@@ -22,7 +22,7 @@ using verdict::Change;
 using verdict::Comparison;
 using verdict::Difference;
 
-constexpr std::size_t kLongestCell = 160;
+constexpr std::size_t kLongestCell = 160, kLongestValue = 48;
 constexpr int kFewDigits = 4, kAllDigits = 17;
 
 std::string number(double value, int digits) {
@@ -55,8 +55,8 @@ Cells cells_of(const Difference& one) {
     if (!one.note.empty()) cells.change = one.note;
     return cells;
   }
-  return {one.before ? number(*one.before, kFewDigits) : one.before_text,
-          one.after ? number(*one.after, kFewDigits) : one.after_text, one.note};
+  return {one.before ? number(*one.before, kFewDigits) : one_line(one.before_text, kLongestValue),
+          one.after ? number(*one.after, kFewDigits) : one_line(one.after_text, kLongestValue), one.note};
 }
 
 std::string headline(const Comparison& comparison) {
@@ -75,18 +75,27 @@ std::vector<std::string> remarks(const Comparison& comparison) {
   return out;
 }
 
-/// Nothing in it is markup to GitHub: no tag, no mention, no link to an issue.
-std::string inert(const std::string& text) {
+/// A code span, in which GitHub sees no tag, no mention, no link; a bar would end the cell even there.
+std::string code(const std::string& text) {
+  if (text.empty()) return {};
   std::string out;
-  for (const char c : markdown_cell(one_line(text, kLongestCell))) {
-    if (c == '<' || c == '>' || c == '&' || c == '@' || c == '#' || c == '[' || c == '*' || c == '_' ||
-        c == '~' || c == ':' || c == '!') {
-      out += fmt::format("&#{};", static_cast<int>(c));
+  for (const char c : valid_utf8(one_line(text, kLongestCell))) {
+    if (c == '|') {
+      out += "¦";
     } else {
-      out += c;
+      out += c == '`' ? '\'' : c;
     }
   }
-  return out;
+  return "`" + out + "`";
+}
+
+/// Bare where there is nothing that could be markup.
+std::string inert(const std::string& text) {
+  const bool plain = std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' ||
+           c == '.' || c == '+' || c == '-' || c == '%';
+  });
+  return plain || text == "—" ? text : code(text);
 }
 
 constexpr const char* kHead = "| | where | what | old | new | change |\n|:-|:-|:-|-:|-:|-:|\n";
@@ -95,7 +104,7 @@ std::string md_row(const Difference& one) {
   const Cells cells = cells_of(one);
   const bool loud = one.change == Change::worse;
   return fmt::format("| {}{}{} | {} | {} | {} | {} | {} |\n", loud ? "**" : "", change_name(one.change),
-                     loud ? "**" : "", inert(one.where), inert(one.what), inert(cells.before),
+                     loud ? "**" : "", code(one.where), code(one.what), inert(cells.before),
                      inert(cells.after), inert(cells.change));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <system_error>
 
@@ -80,9 +81,9 @@ void write_check_report(const verdict::CheckVerdict& verdict, const verdict::Che
   const CheckImages images = encode(pictures);
   if (!images.error_map.empty()) write_whole_file(out / "images" / kErrorMap, images.error_map);
   if (images.camera) {
-    write_whole_file(out / "images" / kCamera[0], images.camera->mesh);
-    write_whole_file(out / "images" / kCamera[1], images.camera->error);
-    write_whole_file(out / "images" / kCamera[2], images.camera->reference);
+    const std::array pictures_taken{&images.camera->mesh, &images.camera->error, &images.camera->reference};
+    for (std::size_t k = 0; k < pictures_taken.size(); ++k)
+      if (!pictures_taken[k]->empty()) write_whole_file(out / "images" / kCamera[k], *pictures_taken[k]);
   }
   // Last: who finds a page finds what it speaks of.
   write_whole_file(out / "check.html", check_page(verdict, pictures, images, command));

@@ -96,13 +96,18 @@ class AgainstTerrain {
     laid_ = lay_over_dem({request.terrain, request.holes},
                          tiles && request.placing == "guess" ? std::string("crs") : request.placing, meshes);
     const Dem& dem = laid_.dem;
+    if (tiles && !dem.geographic)
+      throw InputError(
+          fmt::format("--terrain: {} is not in longitude and latitude, which tiles are; warp it: "
+                      "gdalwarp -t_srs EPSG:4326",
+                      one_line(request.terrain.string())));
     const Mesh placed = laid_over(mesh, laid_.placing, laid_.turned);
     const oracle::VerticalError error = oracle::vertical_error_where_data(placed, dem.samples, dem.has_data);
     verdict::TerrainVerdict& out = exam_.verdict.terrain.emplace();
     out.file = request.terrain.generic_string();
     out.diagonal_ambiguity_m = oracle::diagonal_ambiguity_m(dem.samples, dem.has_data);
     out.reading = reading_in_words(dem, out.diagonal_ambiguity_m);
-    out.placing = laid_.words;
+    out.placing = tiles ? "by the tiles' own longitude and latitude" : laid_.words;
     out.vertical_m = error;
     out.vertical_m.area_m2 = error.area_m2 * dem.metres_x * dem.metres_y;
     out.at = laid_.placing.from_samples(error.at);
@@ -131,15 +136,39 @@ class AgainstTerrain {
  private:
   void add(FindingCode code, std::string kind, Vec2 at, std::string message, double size_m = 0) {
     verdict::CheckFinding found;
-    found.mesh = 0;
     found.finding.code = code;
     found.finding.kind = std::move(kind);
-    found.finding.at = {at.x, at.y, 0};
     found.finding.distance_m = size_m;
-    found.at = {at.x, at.y, 0};
-    if (!exam_.subjects.front().tile) found.at = exam_.frame.to_file({at.x, at.y, 0});
+    found.mesh = owner_of(at, found.finding);
+    const Vec3 place = found.finding.at;
+    found.at = exam_.subjects[found.mesh].tile ? place : exam_.frame.to_file(place);
     found.message = std::move(message);
     findings_.push_back(std::move(found));
+  }
+
+  /// The mesh over the place, its triangle there and the height; the first if there is none.
+  std::uint32_t owner_of(Vec2 at, Finding& finding) const {
+    finding.at = {at.x, at.y, 0};
+    for (std::uint32_t k = 0; k < exam_.subjects.size(); ++k) {
+      const Subject& subject = exam_.subjects[k];
+      const verdict::Extent& box = subject.facts.box;
+      if (at.x < box.low.x || at.x > box.high.x || at.y < box.low.y || at.y > box.high.y) continue;
+      const std::vector<Vec3>& places = subject.tile ? subject.places : subject.mesh.positions;
+      for (std::uint32_t t = 0; t < subject.mesh.triangles.size(); ++t) {
+        const auto& corners = subject.mesh.triangles[t];
+        if (std::any_of(corners.begin(), corners.end(), [&](auto v) { return v >= places.size(); })) continue;
+        const Vec3 &a = places[corners[0]], &b = places[corners[1]], &c = places[corners[2]];
+        const auto turn = [&](const Vec3& p, const Vec3& q) {
+          return (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x);
+        };
+        const double u = turn(b, c), v = turn(c, a), w = turn(a, b), sum = u + v + w;
+        if (!(sum > 0) || u < 0 || v < 0 || w < 0) continue;
+        finding.at.z = (u * a.z + v * b.z + w * c.z) / sum;
+        finding.triangles = {t};
+        return k;
+      }
+    }
+    return 0;
   }
 
   void judge_placement(const Mesh& placed, verdict::TerrainVerdict& out) {
@@ -157,14 +186,18 @@ class AgainstTerrain {
   void judge_declared(verdict::TerrainVerdict& out) {
     if (!exam_.request.declared_m) return;
     const double declared = *exam_.request.declared_m;
+    // A bound is called broken only where the rounding of the figure cannot explain it.
+    const double bound = declared + rounding_m();
     out.declared_m = declared;
-    out.declared_at_samples = out.samples_max_m <= declared;
-    out.declared_certain = out.vertical_m.certain_max <= declared;
-    out.declared_everywhere = out.vertical_m.max <= declared;
+    out.declared_at_samples = out.samples_max_m <= bound;
+    out.declared_certain = out.vertical_m.certain_max <= bound;
+    out.declared_everywhere = out.vertical_m.max <= bound;
     if (!out.declared_at_samples) {
       add(FindingCode::declared_error, "samples", out.samples_at,
-          fmt::format("{} were declared; at a sample the mesh is {} off", length_text(declared),
-                      length_text(out.samples_max_m)),
+          fmt::format("{} were declared; at a sample the mesh is {} off, between samples up to {}, whichever "
+                      "way cells are split",
+                      length_text(declared), length_text(out.samples_max_m),
+                      length_text(out.vertical_m.certain_max)),
           out.samples_max_m);
     } else if (!out.declared_certain) {
       add(FindingCode::declared_error, "between", out.certain_at,
@@ -173,6 +206,17 @@ class AgainstTerrain {
                       length_text(declared), length_text(out.vertical_m.certain_max)),
           out.vertical_m.certain_max);
     }
+  }
+
+  /// What a visited height may err by (vertical.h).
+  double rounding_m() const {
+    double low = laid_.dem.samples.lowest_m(), high = laid_.dem.samples.highest_m();
+    for (const Subject& subject : exam_.subjects) {
+      const double unit = subject.tile ? 1 : exam_.frame.unit_m;
+      low = std::min(low, subject.facts.box.low.z * unit);
+      high = std::max(high, subject.facts.box.high.z * unit);
+    }
+    return oracle::kVerticalRoundingFactor * 0x1p-53 * (high - low);
   }
 
   /// The camera stands in the DEM's local frame: metres from its south-west sample.

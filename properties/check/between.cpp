@@ -22,12 +22,13 @@ using verdict::SeamState;
 /// A border that follows its neighbour's within this share of its own median edge was meant to meet it.
 constexpr double kSlitShare = 0.25;
 
-/// Pairs of subjects whose boxes in plan meet or nearly do, in order.
+/// Pairs of subjects (tiles have a way of their own) whose boxes in plan meet or nearly do, in order.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const std::vector<Subject>& subjects,
                                                                 const std::vector<double>& reach) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t k = 0; k < subjects.size(); ++k) {
-    if (subjects[k].facts.terrain && !subjects[k].border.edges.empty()) order.push_back(k);
+    const Subject& subject = subjects[k];
+    if (subject.facts.terrain && !subject.tile && !subject.border.edges.empty()) order.push_back(k);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return subjects[a].border.low.x < subjects[b].border.low.x;
@@ -69,7 +70,6 @@ class Between {
     for (const Subject& subject : exam_.subjects)
       reach.push_back(kSlitShare * median_border_edge(subject.border));
     for (const auto& [a, b] : neighbours(exam_.subjects, reach)) {
-      if (exam_.subjects[a].tile || exam_.subjects[b].tile) continue;
       const auto seam = oracle::compare_borders(exam_.subjects[a].border, exam_.subjects[b].border);
       if (seam) {
         report_seam(exam_, {a, b, exam_.frame.unit_m, 0, true}, *seam);

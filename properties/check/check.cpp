@@ -86,6 +86,12 @@ void gather(Examination& exam, std::vector<CheckFinding> more) {
     verdict.tile_faults += found.finding.code == FindingCode::tile_encoding;
     ++verdict.totals[found.finding.code];
   }
+  // Tiles were judged on their lattice; the frame of the check is longitude and latitude.
+  for (CheckFinding& found : all) {
+    if (found.mesh != verdict::kNoMesh && exam.subjects[found.mesh].tile &&
+        exam.subjects[found.mesh].tile->placed)
+      found.finding.at = found.at;
+  }
   verdict.findings_total += all.size();
   std::stable_sort(all.begin(), all.end(), [](const CheckFinding& a, const CheckFinding& b) {
     if (rank(a) != rank(b)) return rank(a) < rank(b);

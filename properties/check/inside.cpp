@@ -54,34 +54,48 @@ class WallSpans {
   std::map<std::pair<double, double>, std::pair<double, double>> spans_;
 };
 
-verdict::Extent box_of(const Mesh& mesh) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  verdict::Extent box{{inf, inf, inf}, {-inf, -inf, -inf}};
+/// Per vertex: whether a triangle names it, and it is finite.
+std::vector<std::uint8_t> used_vertices(const Mesh& mesh) {
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
   for (const auto& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
-      if (v >= mesh.positions.size()) continue;
-      const Vec3& p = mesh.positions[v];
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+      if (v < used.size()) used[v] = 1;
     }
   }
-  return box.low.x <= box.high.x ? box : verdict::Extent{};
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) used[v] = 0;
+  }
+  return used;
 }
 
-/// A mesh with a vertex in each corner of its box is taken to promise the rectangle.
-bool is_rectangular(const Mesh& surface, const verdict::Extent& box) {
-  if (!(box.low.x < box.high.x) || !(box.low.y < box.high.y)) return false;
-  std::array<bool, 4> seen{};
-  for (const auto& t : surface.triangles) {
-    for (const std::uint32_t v : t) {
-      if (v >= surface.positions.size()) continue;
-      const Vec3& p = surface.positions[v];
-      if ((p.x != box.low.x && p.x != box.high.x) || (p.y != box.low.y && p.y != box.high.y)) continue;
-      seen[(p.x == box.high.x ? 1u : 0u) + (p.y == box.high.y ? 2u : 0u)] = true;
-    }
+/// Of a mesh, and whether its surface has a vertex in each of the box's four corners: then it is taken to
+/// promise the rectangle.
+struct Reach {
+  verdict::Extent box;
+  bool rectangular = false;
+};
+Reach reach_of(const Mesh& mesh, const std::vector<Vec3>& positions, const oracle::Sheet& sheet) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  verdict::Extent box{{inf, inf, inf}, {-inf, -inf, -inf}};
+  const std::vector<std::uint8_t> used = used_vertices(mesh);
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) continue;
+    const Vec3& p = positions[v];
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
-  return std::all_of(seen.begin(), seen.end(), [](bool b) { return b; });
+  if (!(box.low.x <= box.high.x)) return {};
+  if (!(box.low.x < box.high.x) || !(box.low.y < box.high.y)) return {box, false};
+  const std::vector<std::uint8_t> of_surface = sheet.walls.empty() ? used : used_vertices(sheet.surface);
+  std::array<bool, 4> seen{};
+  for (std::size_t v = 0; v < of_surface.size(); ++v) {
+    const Vec3& p = positions[v];
+    if (of_surface[v] == 0) continue;
+    if ((p.x == box.low.x || p.x == box.high.x) && (p.y == box.low.y || p.y == box.high.y))
+      seen[(p.x == box.high.x ? 1u : 0u) + (p.y == box.high.y ? 2u : 0u)] = true;
+  }
+  return {box, std::all_of(seen.begin(), seen.end(), [](bool b) { return b; })};
 }
 
 /// Where two triangles that meet do so: the middle of the points where an edge of one passes the other's
@@ -137,19 +151,21 @@ class Inside {
     verdict::CheckedMesh& facts = subject_.facts;
     subject_.sheet = oracle::take_walls_off(subject_.mesh);
     const Mesh& surface = subject_.sheet.surface;
-    facts.box = box_of(subject_.mesh);
+    const std::vector<Vec3>& places = subject_.places.empty() ? subject_.mesh.positions : subject_.places;
+    const Reach reach = reach_of(subject_.mesh, places, subject_.sheet);
+    facts.box = reach.box;
     oracle::ConformityReport report;
     if (subject_.tile) {
       PlanDomain domain;
       domain.add_rectangle({0, 0}, {32767, 32767});
       report = oracle::check_conformity(surface, domain);
       facts.domain = "the tile's square";
-    } else if (is_rectangular(surface, facts.box)) {
+    } else if (reach.rectangular) {
       PlanDomain domain;
       domain.add_rectangle({facts.box.low.x, facts.box.low.y}, {facts.box.high.x, facts.box.high.y});
       report = oracle::check_conformity(surface, domain);
       subject_.held_to_rectangle = true;
-      facts.domain = "the rectangle of its box, since each corner has a vertex";
+      facts.domain = "the rectangle of its box";
     } else {
       report = oracle::check_conformity_without_outline(surface);
       facts.domain = "its own outline";
@@ -172,7 +188,7 @@ class Inside {
       if (finding.code == FindingCode::bad_index && subject_.tile) continue;
       add(finding);
     }
-    subject_.border = oracle::border_of(subject_.mesh, subject_.sheet, subject_.normals);
+    subject_.border = oracle::border_of(subject_.mesh, subject_.sheet, subject_.normals, &report);
     if (subject_.tile) quantize_border(subject_);
     measure_skirt();
   }
@@ -213,14 +229,14 @@ class Inside {
   void judge_object() {
     verdict::CheckedMesh& facts = subject_.facts;
     subject_.mesh = welded(subject_.mesh);
-    facts.box = box_of(subject_.mesh);
+    facts.box = reach_of(subject_.mesh, subject_.mesh.positions, {}).box;
     facts.domain = "an object: no plan to cover; vertices of equal coordinates are one";
     const oracle::ConformityReport report = oracle::check_soundness(subject_.mesh);
     facts.conformity = report.counts;
     for (const Finding& finding : report.findings) add(finding);
     if (subject_.mesh.triangles.size() > kMostIntersected) return;
     const auto pairs = oracle::self_intersections(subject_.mesh);
-    if (!pairs) return;
+    if (!pairs) return;  // no manifold: judged by its own findings, and the text claims nothing
     facts.self_intersections = pairs->size();
     facts.self_intersections_judged = true;
     for (const auto& pair : *pairs) {

@@ -37,6 +37,15 @@ struct Facing {
       size = size + Vec3{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)};
     }
   }
+  void add(const Facing& other) {
+    sum = sum + other.sum;
+    size = size + other.size;
+  }
+  /// The same of the mesh in the frame's axes.
+  [[nodiscard]] Facing in(const Frame& frame) const {
+    const Vec3 s = frame.from_file(size);
+    return {frame.from_file(sum), {std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)}};
+  }
 };
 
 /// A surface over a plan faces one way: of its area in plan at least this share is not cancelled by area that
@@ -104,9 +113,7 @@ Inputs sort_out(const CheckRequest& request, std::vector<std::string>& notes,
 /// A surface of which most runs clockwise seen from above has y running south (as rows of images do), or is
 /// wound the wrong way round as a whole. Which, the mesh alone does not tell; a triangle each would say it
 /// two million times.
-void turn_over(Examination& exam, const std::vector<Subject*>& meshes) {
-  Facing all;
-  for (const Subject* subject : meshes) all.add(subject->mesh);
+void turn_over(Examination& exam, const std::vector<Subject*>& meshes, const Facing& all) {
   if (!(all.sum.z < -kTerrainShare * all.size.z)) return;
   exam.frame.turned = true;
   for (Subject* subject : meshes) {
@@ -142,9 +149,11 @@ void settle_frame(Examination& exam) {
     verdict.frame = "longitude and latitude in degrees, height in metres above the ellipsoid (WGS84)";
     return;
   }
-  Facing facing;
-  for (const Subject* subject : meshes) facing.add(subject->mesh);
-  const Guess guessed = guess(facing);
+  std::vector<Facing> facings(meshes.size());
+  tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) { facings[k].add(meshes[k]->mesh); });
+  Facing all;
+  for (const Facing& facing : facings) all.add(facing);
+  const Guess guessed = guess(all);
   const CheckRequest& request = exam.request;
   exam.frame.unit_m = request.unit_m;
   switch (request.up) {
@@ -166,15 +175,17 @@ void settle_frame(Examination& exam) {
                         axis_name(exam.frame.up)));
       break;
   }
-  for (Subject* subject : meshes) {
-    for (Vec3& p : subject->mesh.positions) p = exam.frame.from_file(p);
-    for (Vec3& n : subject->normals) n = exam.frame.from_file(n);
+  if (exam.frame.up != Frame::Up::z) {
+    for (Subject* subject : meshes) {
+      for (Vec3& p : subject->mesh.positions) p = exam.frame.from_file(p);
+      for (Vec3& n : subject->normals) n = exam.frame.from_file(n);
+    }
   }
-  turn_over(exam, meshes);
-  for (Subject* subject : meshes) {
+  turn_over(exam, meshes, all.in(exam.frame));
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    Subject* subject = meshes[k];
     // Against the axis that holds for all, not the one that would suit this mesh best.
-    Facing own;
-    own.add(subject->mesh);
+    const Facing own = facings[k].in(exam.frame);
     subject->facts.terrain = request.kind == CheckRequest::Kind::guess
                                  ? std::fabs(own.sum.z) > kTerrainShare * own.size.z
                                  : request.kind == CheckRequest::Kind::terrain;

@@ -415,7 +415,7 @@ void quantize_border(Subject& subject) {
   for (oracle::BorderEdge& edge : subject.border.edges) {
     for (std::size_t k = 0; k < 2; ++k) {
       const std::int32_t step = tile.steps[edge.vertices[k]];
-      if (step < 0) continue;  // out of range: reported, and compared as decoded
+      if (step < 0 || step > kTileSteps) continue;  // out of range: reported, and compared as decoded
       edge.height[k] = {tile.low_m, tile.high_m, static_cast<std::uint32_t>(step), 0};
     }
   }

@@ -16,12 +16,8 @@ namespace {
 
 /// Statements of a check about a declared bound: which answer is the bad one. A member not listed here is
 /// neither good nor bad.
-constexpr std::array<std::pair<std::string_view, bool>, 6> kBadAnswers{{{"declared_at_samples", false},
-                                                                        {"declared_certain", false},
-                                                                        {"declared_everywhere", false},
-                                                                        {"declared_holds", false},
-                                                                        {"holds", false},
-                                                                        {"declared_broken", true}}};
+constexpr std::array<std::pair<std::string_view, bool>, 5> kBadAnswers{
+    {{"at_samples", false}, {"certain", false}, {"everywhere", false}, {"holds", false}, {"broken", true}}};
 /// States of a seam, from good to bad, by how they begin.
 constexpr std::array<std::string_view, 3> kSeamStates{"watertight", "covered", "open"};
 
@@ -37,7 +33,9 @@ void walk(const Json& object, const std::string& prefix, const std::string& sett
           std::vector<Reading>& settings, const Place& place) {
   for (const auto& [key, value] : object.items()) {
     const std::string path = prefix + key;
-    if (value.is_number() || value.is_null()) {
+    if (key == "camera") {  // where it was looked from is no figure
+      settings.push_back(text_reading(setting_prefix + path, plain_text(value)));
+    } else if (value.is_number() || value.is_null()) {
       Reading reading = read_number(value, path, place);
       reading.direction = verdict::figure_direction(path);
       reading.counted = value.is_number_integer();
@@ -198,9 +196,8 @@ ResultFile read_check(const Json& root, const Place& place) {
   const MeshNames names(meshes, mesh_place);
   Json whole = Json::object();
   for (const auto& [key, value] : root.items()) {
-    if (key == "camera") {
-      file.settings.push_back(text_reading(key, plain_text(value)));
-    } else if (key != "schema" && key != "verdict") {
+    // The headline is the verdict and the counts again, in words.
+    if (key != "schema" && key != "verdict" && key != "headline") {
       whole[key] = value.is_array() ? Json::array() : value;
     }
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -22,7 +21,8 @@ using verdict::Comparison;
 using verdict::Difference;
 using verdict::Matter;
 
-/// Counts of faults stand before measures, whose weight is a relative change of at most 2.
+/// Counts of findings (conformity's stand alone, or in its group) come before measures, whose weight is a
+/// relative change of at most 2.
 constexpr double kCountsFirst = 1e9;
 constexpr const char* kNothing = "—";
 
@@ -106,7 +106,9 @@ class Comparer {
   static double weight(const Reading& a, const Reading& b, verdict::Direction direction) {
     if (std::isnan(a.value) || std::isnan(b.value)) return 2 * kCountsFirst;
     const double change = std::fabs(b.value - a.value);
-    if (a.counted && b.counted && direction != verdict::Direction::neither) return kCountsFirst + change;
+    const bool finding = a.path.find('.') == std::string::npos || a.path.starts_with("conformity.");
+    if (finding && a.counted && b.counted && direction != verdict::Direction::neither)
+      return kCountsFirst + change;
     return change / std::max(std::fabs(a.value), std::fabs(b.value));
   }
   static std::string words(const Reading& reading) {
@@ -135,14 +137,32 @@ class Comparer {
     return matter == Matter::figure && one_sided_.count(path) > 0;
   }
 
+  static bool has_group(const std::set<std::string, std::less<>>& paths, std::string_view path) {
+    for (std::size_t dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.', dot + 1))
+      if (paths.count(path.substr(0, dot)) > 0) return true;
+    return false;
+  }
+
   void find_one_sided_figures() {
     Tally<std::string> paths;
-    for (const Subject& subject : before_.subjects)
-      for (const Reading& reading : subject.readings) ++paths[reading.path].first;
-    for (const Subject& subject : after_.subjects)
-      for (const Reading& reading : subject.readings) ++paths[reading.path].second;
+    std::set<std::string, std::less<>> silent_before, silent_after;  // null somewhere, alone or as a group
+    std::set<std::string, std::less<>> judged;
+    const auto take = [&](const ResultFile& file, auto& silent, auto side) {
+      for (const Subject& subject : file.subjects) {
+        for (const Reading& reading : subject.readings) {
+          ++(paths[reading.path].*side);
+          (reading.kind == Reading::Kind::not_judged ? silent : judged).insert(reading.path);
+        }
+      }
+    };
+    using Counts = std::pair<std::size_t, std::size_t>;
+    take(before_, silent_before, &Counts::first);
+    take(after_, silent_after, &Counts::second);
     for (const auto& [path, times] : paths) {
       if (times.first > 0 && times.second > 0) continue;
+      // Nothing to tell; or a whole group that was not judged there, so that none of its figures stands.
+      if (judged.count(path) == 0 || has_group(times.first > 0 ? silent_after : silent_before, path))
+        continue;
       one_sided_.insert(path);
       Difference& one = add(difference(Change::changed, Matter::setting, "", path));
       one.before_text = times.first > 0 ? "is told" : kNothing;
@@ -199,9 +219,9 @@ class Comparer {
     using Key = std::pair<std::string_view, std::string_view>;  // run, name
     std::map<Key, std::vector<const GateReading*>> of_key;      // the first is the last element
     std::set<const GateReading*> left;
-    for (const GateReading& gate : after_.gates | std::views::reverse) {
-      of_key[{gate.run, gate.name}].push_back(&gate);
-      left.insert(&gate);
+    for (auto gate = after_.gates.rbegin(); gate != after_.gates.rend(); ++gate) {
+      of_key[{gate->run, gate->name}].push_back(&*gate);
+      left.insert(&*gate);
     }
     std::map<std::pair<std::string_view, bool>, std::size_t> gone, fresh;
     for (const GateReading& gate : before_.gates) {

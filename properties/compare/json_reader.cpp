@@ -17,15 +17,13 @@ namespace {
 constexpr std::size_t kDeepest = 64;
 constexpr std::size_t kDepthOfFrames = 3;  // root, "runs", a run
 
-/// FNV-1a over the values of a JSON text, so that blanks do not count.
-class ValueHash {
+/// FNV-1a over bytes.
+class Hash {
  public:
-  void add(char kind, std::uint64_t bits) {
-    add_byte(static_cast<unsigned char>(kind));
+  void add(std::uint64_t bits) {
     for (int shift = 0; shift < 64; shift += 8) add_byte(static_cast<unsigned char>(bits >> shift & 0xffU));
   }
-  void add(char kind, std::string_view text) {
-    add(kind, std::uint64_t{text.size()});
+  void add(std::string_view text) {
     for (const char c : text) add_byte(static_cast<unsigned char>(c));
   }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
@@ -33,6 +31,60 @@ class ValueHash {
  private:
   void add_byte(unsigned char byte) { hash_ = (hash_ ^ byte) * 0x100000001b3U; }
   std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+/// A hash of a JSON value that depends on neither blanks nor the order of keys.
+class ValueHash {
+ public:
+  void key(std::string_view name) {
+    Hash hash;
+    hash.add(name);
+    levels_.back().key = hash.value();
+  }
+  void scalar(char kind, std::uint64_t bits) {
+    Hash hash;
+    hash.add(std::uint64_t{static_cast<unsigned char>(kind)});
+    hash.add(bits);
+    add(hash.value());
+  }
+  void text(std::string_view value) {
+    Hash hash;
+    hash.add(value);
+    scalar('s', hash.value());
+  }
+  void open(bool object) {
+    levels_.emplace_back();
+    levels_.back().object = object;
+  }
+  /// The hash of the whole when its last container closes, else 0.
+  std::uint64_t close() {
+    const Level level = levels_.back();
+    levels_.pop_back();
+    const std::uint64_t hash = level.object ? level.sum : level.list.value();
+    if (levels_.empty()) return hash;
+    scalar(level.object ? '{' : '[', hash);
+    return 0;
+  }
+  [[nodiscard]] std::size_t depth() const { return levels_.size(); }
+
+ private:
+  struct Level {
+    bool object = false;
+    std::uint64_t key = 0, sum = 0;  // of an object: members are added, which has no order
+    Hash list;                       // of an array
+  };
+  void add(std::uint64_t value) {
+    Level& level = levels_.back();
+    if (!level.object) {
+      level.list.add(value);
+      return;
+    }
+    Hash member;
+    member.add(level.key);
+    member.add(value);
+    level.sum += member.value();
+  }
+  std::vector<Level> levels_;
 };
 
 /// Builds the tree as the parser goes. nlohmann's own builder has no bound on depth, and would keep every
@@ -55,7 +107,7 @@ class Builder : public nlohmann::json_sax<Json> {
   }
   bool string(string_t& value) override {
     if (skipping()) {
-      hash_.add('s', value);
+      hash_.text(value);
     } else {
       insert(std::move(value));
     }
@@ -63,13 +115,13 @@ class Builder : public nlohmann::json_sax<Json> {
   }
   bool binary(binary_t&) override { return false; }  // no JSON text has one
 
-  bool start_object(std::size_t) override { return open('{', Json::object()); }
-  bool end_object() override { return close('}'); }
-  bool start_array(std::size_t) override { return open('[', Json::array()); }
-  bool end_array() override { return close(']'); }
+  bool start_object(std::size_t) override { return open(true); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(false); }
+  bool end_array() override { return close(); }
   bool key(string_t& name) override {
     if (skipping()) {
-      hash_.add('k', name);
+      hash_.key(name);
     } else {
       if (stack_.size() == 1) top_key_ = name;
       key_ = std::move(name);
@@ -92,40 +144,36 @@ class Builder : public nlohmann::json_sax<Json> {
   Json take() { return std::move(root_); }
 
  private:
-  [[nodiscard]] bool skipping() const { return skipped_ > 0; }
+  [[nodiscard]] bool skipping() const { return hash_.depth() > 0; }
 
   template <class Value>
   bool put(char kind, std::uint64_t bits, Value value) {
     if (skipping()) {
-      hash_.add(kind, bits);
+      hash_.scalar(kind, bits);
     } else {
       insert(value);
     }
     return true;
   }
 
-  bool open(char kind, Json container) {
-    if (stack_.size() + skipped_ >= kDeepest)
+  bool open(bool object) {
+    if (stack_.size() + hash_.depth() >= kDeepest)
       throw InputError(fmt::format("{}: nests deeper than {} levels; give a result file", file_, kDeepest));
-    if (skipping()) {
-      hash_.add(kind, 0);
-      ++skipped_;
-    } else if (kind == '[' && stack_.size() == kDepthOfFrames && top_key_ == "runs" && key_ == "frames") {
-      hash_ = {};
-      skipped_ = 1;
+    const bool frames = !object && stack_.size() == kDepthOfFrames && top_key_ == "runs" && key_ == "frames";
+    if (skipping() || frames) {
+      hash_.open(object);
     } else {
-      stack_.push_back(insert(std::move(container)));
+      stack_.push_back(insert(object ? Json::object() : Json::array()));
     }
     return true;
   }
-  bool close(char kind) {
+  bool close() {
     if (!skipping()) {
       stack_.pop_back();
-    } else if (--skipped_ == 0) {
-      insert(hash_.value());
-    } else {
-      hash_.add(kind, 0);
+      return true;
     }
+    const std::uint64_t hash = hash_.close();
+    if (!skipping()) insert(hash);
     return true;
   }
 
@@ -149,7 +197,6 @@ class Builder : public nlohmann::json_sax<Json> {
   Json root_;
   // Parents are not touched while a child is open, so these stay valid.
   std::vector<Json*> stack_;
-  std::size_t skipped_ = 0;
   ValueHash hash_;
 };
 

@@ -95,8 +95,9 @@ ResultFile read_results(const Json& root, const Place& place) {
     if (!root.contains(key)) continue;
     for (const Json& ground : array_at(root, key, place)) {
       const Place here{place.file, fmt::format("one of \"{}\"", key)};
-      file.settings.push_back(
-          text_reading(fmt::format("{} {}", key, text_at(ground, "id", here)), plain_text(ground)));
+      const std::string id = text_at(ground, "id", here);
+      for (const auto& [fact, value] : ground.items())
+        file.settings.push_back(text_reading(fmt::format("{} of {}", fact, id), plain_text(value)));
     }
   }
   std::set<std::string> ids;

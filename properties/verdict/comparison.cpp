@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 3> kDescribe{"triangles", "triangles_max"
 constexpr std::array<std::string_view, 1> kLessIsWorse{"shape.min_quality"};
 
 /// Of checks: last words of paths whose growth is bad whatever they stand in.
-constexpr std::array<std::string_view, 32> kBadWords{"max",
+constexpr std::array<std::string_view, 34> kBadWords{"max",
                                                      "certain_max",
                                                      "rms",
                                                      "mean",
@@ -45,12 +45,25 @@ constexpr std::array<std::string_view, 32> kBadWords{"max",
                                                      "faulty",
                                                      "broken",
                                                      "open",
+                                                     "sufficient_skirt_m",
+                                                     "samples_max",
                                                      "least",
                                                      "most"};
 
 template <std::size_t Size>
 bool is_one_of(std::string_view word, const std::array<std::string_view, Size>& words) {
   return std::ranges::find(words, word) != words.end();
+}
+
+bool is_about_findings(const Difference& one) {
+  if (one.matter == Matter::finding || one.matter == Matter::vacuous) return true;
+  if (one.matter != Matter::figure) return false;
+  if (one.what.starts_with("conformity.") || one.what == "findings_total" || one.what == "tile_faults")
+    return true;
+  const auto known = figures();
+  const auto figure = std::ranges::find(known, one.what, &Figure::path);
+  return figure != known.end() && figure->unit == "count" && one.what.find('.') == std::string::npos &&
+         figure_direction(one.what) != Direction::neither;
 }
 
 }  // namespace
@@ -63,7 +76,8 @@ Direction figure_direction(std::string_view path) {
   const auto known = figures();
   if (std::ranges::find(known, path, &Figure::path) != known.end()) return Direction::more_is_worse;
   const std::string_view last = path.substr(path.rfind('.') + 1);
-  if (last == "min_quality") return Direction::less_is_worse;
+  if (last == "min_quality" || last == "mean_quality" || last == "least_angle_deg")
+    return Direction::less_is_worse;
   return is_one_of(last, kBadWords) ? Direction::more_is_worse : Direction::neither;
 }
 
@@ -115,6 +129,12 @@ std::string_view Comparison::word() const {
   if (differences.empty()) return "unchanged";
   if (count(Change::worse) > 0) return "worse";
   return count(Change::better) > 0 ? "better" : "changed";
+}
+
+Comparison findings_only(Comparison comparison) {
+  std::erase_if(comparison.differences, [](const Difference& one) { return !is_about_findings(one); });
+  comparison.notes.emplace_back("findings and their counts only: other differences are left out");
+  return comparison;
 }
 
 }  // namespace plumbline::verdict

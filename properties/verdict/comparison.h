@@ -67,4 +67,8 @@ struct Comparison {
   [[nodiscard]] std::string_view word() const;
 };
 
+/// Keeps the differences in findings, in their counts, and in what judged nothing: "no new violations",
+/// though figures move and bounds are missed. A note says so.
+Comparison findings_only(Comparison comparison);
+
 }  // namespace plumbline::verdict

@@ -203,11 +203,12 @@ MeshFile read_elements(const Scanner& in, std::vector<Element> elements) {
     // A value takes a byte at least: more will not come, whatever the count says.
     const std::size_t likely = static_cast<std::size_t>(
         std::min<std::uint64_t>(element.count, values.left() / element.properties.size()));
-    if (vertices) mesh.positions.reserve(mesh.positions.size() + likely);
-    if (vertices && normals) mesh.normals.reserve(mesh.normals.size() + likely);
-    if (faces) {
-      mesh.ends.reserve(mesh.ends.size() + likely);
-      mesh.corners.reserve(mesh.corners.size() + std::min(3 * likely, values.left()));
+    // Once: made room for anew by each of many elements, all would be copied each time.
+    if (vertices && mesh.positions.empty()) mesh.positions.reserve(likely);
+    if (vertices && normals && mesh.normals.empty()) mesh.normals.reserve(likely);
+    if (faces && mesh.ends.empty()) {
+      mesh.ends.reserve(likely);
+      mesh.corners.reserve(std::min(3 * likely, values.left()));
     }
     for (std::uint64_t k = 0; k < element.count; ++k) {
       std::array<double, kNothing + 1> value{};

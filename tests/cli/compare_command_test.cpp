@@ -86,8 +86,8 @@ TEST_F(CompareCommand, MarkdownAndJson) {
   const Outcome outcome =
       compare(results(0, 1.5, 100), results(12, 1.5, 100), {"--markdown", "--json", "d.json"});
   EXPECT_THAT(outcome.out,
-              StartsWith("### plumbline: worse\n\n1 worse, 0 better, 0 changed, 4 the same in 1 run.\n"));
-  EXPECT_THAT(outcome.out, HasSubstr("| **worse** | hills.down.full.1 | crack | 0 | 12 | +12 |"));
+              StartsWith("### plumbline: worse\n\n1 worse, 0 better, 0 changed, 5 the same in 1 run.\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("| **worse** | `hills.down.full.1` | `crack` | 0 | 12 | +12 |"));
   const json differences = json::parse(read_file(folder() / "d.json"));
   EXPECT_EQ(differences["schema"], "plumbline.compare/1");
   EXPECT_EQ(differences["differences"][0]["what"], "crack");
@@ -108,6 +108,22 @@ TEST_F(CompareCommand, TellsNewFindingsOfAChecksFile) {
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.out, HasSubstr("302 crack: gap at 4, 2, 3"));
   EXPECT_EQ(compare(check(known + "," + fresh), check(known)).status, 0);
+}
+
+TEST_F(CompareCommand, FindingsAlone) {
+  const auto check = [](int cracks, double error_m) {
+    return json{{"schema", "plumbline.check/1"},     {"verdict", "faulty"},
+                {"meshes", {{{"file", "a.ply"}}}},   {"findings", json::array()},
+                {"conformity", {{"crack", cracks}}}, {"vertical_m", {{"max", error_m}}}}
+        .dump();
+  };
+  EXPECT_EQ(compare(check(1, 2), check(1, 3)).status, 1);
+  const Outcome moved = compare(check(1, 2), check(1, 3), {"--findings"});
+  EXPECT_EQ(moved.status, 0) << "a figure moved, no finding is new";
+  EXPECT_THAT(moved.out, HasSubstr("findings and their counts only"));
+  EXPECT_EQ(compare(check(1, 2), check(2, 2), {"--findings"}).status, 1);
+  EXPECT_EQ(compare(results(0, 1.5, 100), results(0, 2.5, 120), {"--findings", "--any-change"}).status, 0);
+  EXPECT_EQ(compare(results(0, 1.5, 100), results(1, 1.5, 100), {"--findings"}).status, 1);
 }
 
 TEST_F(CompareCommand, ARunIsItsOwnTwin) {

@@ -31,6 +31,7 @@ inline void require_consistent(const MeshFile& mesh) {
   require(std::all_of(mesh.corners.begin(), mesh.corners.end(),
                       [&](std::uint32_t v) { return v < mesh.positions.size(); }),
           "every corner names a vertex");
+  require(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size(), "a vertex has one normal");
   require(std::is_sorted(mesh.part_ends.begin(), mesh.part_ends.end()), "parts end in order");
   require(mesh.part_ends.empty() || mesh.part_ends.back() == mesh.ends.size(), "parts hold all polygons");
 }
@@ -66,8 +67,8 @@ inline void require_triangulates(const MeshFile& file) {
   require(named(cut) && cut.triangles.size() == one.triangles.size(), "cutting moves no triangle");
 }
 
-/// Reads `bytes` as a file of that name, twice. `per_byte`: the most vertices, corners and polygons together
-/// that a byte of the file may make.
+/// Reads `bytes` as a file of that name, twice. `per_byte`: the most vertices, normals, corners and polygons
+/// together that a byte of the file may make.
 inline void fuzz_mesh(const std::uint8_t* data, std::size_t size, std::string_view name, std::size_t per_byte,
                       std::size_t allowance = 0) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
@@ -77,7 +78,8 @@ inline void fuzz_mesh(const std::uint8_t* data, std::size_t size, std::string_vi
   if (!mesh) return;
   require(same(*mesh, *again), "a second reading gives the same bits");
   require_consistent(*mesh);
-  require(mesh->positions.size() + mesh->corners.size() + mesh->ends.size() <= per_byte * size + allowance,
+  require(mesh->positions.size() + mesh->normals.size() + mesh->corners.size() + mesh->ends.size() <=
+              per_byte * size + allowance,
           "memory is bounded by the file's size");
   require_triangulates(*mesh);
 }

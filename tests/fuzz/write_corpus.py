@@ -40,6 +40,7 @@ def ply() -> None:
     more = "property uchar red\nproperty list ushort float w\n"
     body = b"".join(struct.pack("<3fBHff", *p, 7, 2, 1, 2) for p in SQUARE) + struct.pack("<I4B", 4, 0, 1, 2, 3)
     put("ply", "extra_properties.ply", ply_header("binary_little_endian", "float32", "uint", "uchar", 1, more).encode() + body)
+    put("ply", "normals.ply", ply_header("ascii", "float", "uchar", "int", 1, "".join(f"property float n{c}\n" for c in "xyz")) + "".join(f"{x} {y} {z} 0 0 1\n" for x, y, z in SQUARE) + "4 0 1 2 3\n")
     put("ply", "other_elements.ply", "ply\nformat ascii 1.0\nobj_info i\nelement camera 1\nproperty int a\nelement none 9\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n5\n")
 
 
@@ -47,6 +48,7 @@ def obj() -> None:
     v = "".join(f"v {x} {y} {z}\n" for x, y, z in SQUARE)
     put("obj", "square.obj", f"# c\nmtllib a\no a\n{v}f 1 2 3\nf 1 3 4\n")
     put("obj", "forms.obj", f"{v}vt 0 0\nvn 0 0 1\nf -4 -3 -2\nf 1/1 3/1/1 4//1\nf 1 2\nf\nl 1 2\n")
+    put("obj", "normals.obj", f"{v}vn 0 0 1\nvn 0 1 0\nvn 0 0 1\nf 1//1 2//2 3/7/3\nf 1//-1 3//1 4//1\n")
     put("obj", "concave.obj", "v 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4 5 6\n")
     put("obj", "standing.obj", "v 0 0 0\r\nv 0 2 0\r\nv 0 1 1\r\nv 0 2 2\r\nv 0 0 2\r\nf 1 2 3 4 5\r\nf 5 4 3 2 1")
     put("obj", "not_finite.obj", "v nan 0 -inf\nv 1e308 -1e308 0\nv 0 1e-320 +1\nv 1e308 1e308 1\nf 1 2 3 4\nf 2 3 4 2 3\n")
@@ -116,6 +118,9 @@ def gltf() -> None:
     ]
     scenes = {"scene": 1, "scenes": [{"nodes": [1]}, {"nodes": [0]}]}
     put("gltf", "nodes.glb", glb(*document(struct.pack("<6H", *triangles), 5123, None, turned, **scenes)))
+    text, binary = document(struct.pack("<6H", *triangles), 5123, None, [{"mesh": 0, "scale": [1, 2, 3]}])
+    text["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 0
+    put("gltf", "normals.glb", glb(text, binary))
     text, binary = document(bytes(triangles), 5121, None, [{"mesh": 0}], extensionsRequired=["KHR_mesh_quantization"])
     text["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
     put("gltf", "inside.gltf", json.dumps(text))
@@ -276,5 +281,27 @@ def layer() -> None:
     put("layer", "deep.json", json.dumps({"available": [[]] * 25 + [[{"startX": 0, "startY": 0, "endX": 67108863, "endY": 33554431}]]}))
 
 
-for write in (ply, obj, off, stl, gltf, pose, suite, case, judge, tile, layer):
+def results() -> None:
+    run = {"id": "a.b.full.1", "terrain": "a", "frames": [{"index": 0, "triangles": 2, "vertical_m": {"at": [1, 2.5]}}], "summary": {"frames": 1, "conformity": {"crack": 0, "hole": 2}, "displacement_px": {"p99": 0.25, "max": None}, "self_intersection": 3}}
+    put("results", "results.json", json.dumps({
+        "schema": "plumbline.results/1", "suite": "s", "yardstick": "full", "viewport": [9, 9], "fov_y_deg": 60, "pass": False, "interrupted": False,
+        "selftest": {"pass": True}, "terrains": [{"id": "a", "columns": 3}], "meshes": [], "runs": [run, {**run, "id": "a.b.full.2"}],
+        "gates": [{"name": "crack", "run": "a.b.full.1", "limit": "crack == 0", "value": 1, "pass": False}], "vacuous": ["x"]}))
+    put("results", "check.json", json.dumps({
+        "schema": "plumbline.check/1", "verdict": "faulty", "frame": "own", "camera": {"fov_y_deg": 60},
+        "meshes": [{"file": "a/b/one.ply", "triangles": 10, "shape": {"min_quality": 0.5}}, {"file": "a/b/two.ply"}, {"file": "a/b/two.ply"}],
+        "conformity": {"crack": 2}, "findings_total": 3,
+        "findings": [{"code": 302, "name": "crack", "kind": "gap", "mesh": "a/b/one.ply", "at": [1, 2, None]}, {"code": 302, "mesh": 0, "other_mesh": 1, "at": [1, 2, 4]}],
+        "seams": [{"mesh": 0, "other_mesh": 1, "state": "covered by a skirt", "largest_gap_m": -0.5}],
+        "vertical_m": {"max": 1.5, "at": [3, 4]}, "declared_m": 2, "declared_holds": True}))
+
+
+def expected() -> None:
+    entry = 'run = "hills.skim.full.1"\nfigure = "crack"\nvalue = "== 63"\nwhy = "steep"\n'
+    put("expected", "tables.toml", f"[[expected]]\n{entry}[[expected]]\n{entry.replace('full.1', '*')}")
+    put("expected", "inline.toml", 'expected = [\n  { run = "*", figure = "displacement_px.p99", value = "<= 2 tau", why = "w" },\n  { run = "*.spin.*.2.5", figure = "hole", value = 3, why = "w" },\n]\n')
+    put("expected", "none.toml", "expected = []\n")
+
+
+for write in (ply, obj, off, stl, gltf, pose, suite, case, judge, tile, layer, results, expected):
     write()

@@ -200,6 +200,11 @@ TEST(TileConformance, HeightRange) {
   QuantizedMesh tile = clean();
   std::swap(tile.min_height_m, tile.max_height_m);
   EXPECT_THAT(only(tile, "height_range", Severity::fault).text, HasSubstr("above its greatest"));
+  // Ground so steep that heights upside down would leave the ball.
+  tile = test::regular_tile(kGrid, {14, 1092, 784}, kCells,
+                            [](double x, double y) { return test::hills_m(x, y) * 9; });
+  std::swap(tile.min_height_m, tile.max_height_m);
+  only(tile, "height_range", Severity::fault, kGrid.bounds_deg({14, 1092, 784}));
   tile = clean();
   tile.sphere_radius_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(only(tile, "height_range", Severity::fault).text, HasSubstr("not finite"));

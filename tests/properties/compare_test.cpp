@@ -135,7 +135,8 @@ TEST(CompareResults, RunsThatAreGoneAreWorseAndNewOnesAreTold) {
       if (gate["run"] != id) kept.push_back(gate);
     root["gates"] = kept;
   });
-  EXPECT_THAT(lines(compare_texts(sound_results(), fewer)), ElementsAre("worse " + id + ": run judged → gone"))
+  EXPECT_THAT(lines(compare_texts(sound_results(), fewer)),
+              ElementsAre("worse " + id + ": run judged → gone"))
       << "and not its gates besides";
   const auto gained = lines(compare_texts(fewer, sound_results()));
   EXPECT_THAT(gained, ElementsAre("changed " + id + ": run — → new"));
@@ -178,6 +179,11 @@ TEST(CompareResults, VerdictAndVacuousComeFirst) {
                   "changed : yardstick null → other"));
 }
 
+TEST(CompareResults, WhatWasFlownIsToldFactByFact) {
+  EXPECT_THAT(spoiled_lines([](Json& root) { root["terrains"][0]["columns"] = 257; }),
+              ElementsAre("changed : columns of canyon 513 → 257"));
+}
+
 TEST(CompareResults, FramesMayDifferUnderAnEqualSummary) {
   const std::string after =
       spoiled([](Json& root) { root["runs"][5]["frames"][2]["camera"]["position"][0] = 1.5; });
@@ -206,7 +212,8 @@ const std::string kCheck = R"({ "schema": "plumbline.check/1", "verdict": "fault
     { "code": 302, "name": "crack", "kind": "gap", "mesh": "a/b/one.ply", "at": [1, 2, 3], "gap_m": 0.5 },
     { "code": 302, "name": "crack", "kind": "gap", "mesh": 0, "other_mesh": 1, "at": [1, 2, 4], "gap_m": 0.5 } ],
   "seams": [ { "mesh": 0, "other_mesh": 1, "state": "covered by a skirt", "largest_gap_m": -0.5 } ],
-  "vertical_m": { "max": 1.5, "certain_max": 1.25, "at": [3, 4] }, "declared_m": 2, "declared_holds": true })";
+  "vertical_m": { "max": 1.5, "certain_max": 1.25, "at": [3, 4] }, "terrain": { "file": "dem.tif", "declared": { "bound_m": 2, "everywhere": true } },
+  "headline": "2 cracks", "displacement_px": null, "image": { "camera": { "position": [1, 2, 3] }, "mesh_px": 7 } })";
 
 std::string check_with(const std::string& from, const std::string& to) {
   std::string text = kCheck;
@@ -233,9 +240,22 @@ TEST(CompareChecks, WhatBecameWorse) {
               ElementsAre("worse one.ply | two.ply: state covered by a skirt → open"));
   EXPECT_THAT(check_lines("-0.5", "0.75"), ElementsAre("worse one.ply | two.ply: largest_gap_m -0.5 → 0.75"))
       << "a signed gap is as bad as it is large";
-  EXPECT_THAT(check_lines("true", "false"), ElementsAre("worse : declared_holds true → false"));
+  EXPECT_THAT(check_lines("true", "false"), ElementsAre("worse : terrain.declared.everywhere true → false"));
+  EXPECT_THAT(check_lines("\"headline\": \"2", "\"headline\": \"3"), IsEmpty()) << "counts again, in words";
+  EXPECT_THAT(check_lines("\"position\": [1", "\"position\": [2"),
+              ElementsAre(HasSubstr("changed : image.camera {")));
+  EXPECT_THAT(check_lines("dem.tif", "other.tif"), ElementsAre("changed : terrain.file dem.tif → other.tif"));
   EXPECT_THAT(check_lines("the file's own", "metres"),
               ElementsAre("changed : frame the file's own → metres"));
+}
+
+TEST(CompareChecks, AGroupThatIsNullIsNotJudged) {
+  const std::string with = "{ \"max\": 1.5, \"certain_max\": 1.25, \"at\": [3, 4] }";
+  EXPECT_THAT(check_lines(with, "null"), ElementsAre("worse : vertical_m.certain_max 1.25 → not judged",
+                                                     "worse : vertical_m.max 1.5 → not judged"));
+  EXPECT_THAT(lines(compare_texts(check_with(with, "null"), kCheck)),
+              ElementsAre("changed : vertical_m.certain_max not judged → 1.25",
+                          "changed : vertical_m.max not judged → 1.5"));
 }
 
 TEST(CompareChecks, FindingsAreKnownByCodeKindMeshAndPlace) {

@@ -4,7 +4,9 @@
 // What fuzzing and its seeds brought to light, each by its smallest input; more in tests/fuzz/crashers.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 
 #include "scenarios/camera.h"
 #include "scenarios/mesh_file/mesh_file.h"
+#include "scenarios/point_table.h"
 #include "scenarios/random.h"
 #include "scenarios/suite.h"
 #include "scenarios/toml_reader.h"
@@ -96,6 +99,28 @@ TEST(HostileInput, GltfStripsShownOftenAreRefused) {
   EXPECT_GT(mesh.corners.size(), 0u);
   EXPECT_LE(mesh.corners.size() + mesh.positions.size(), 16 * (few.size() + 63));
   EXPECT_THAT(input_error([&] { (void)parse_mesh(many, "a.gltf"); }), HasSubstr("shows its data too often"));
+}
+
+// Coordinates chosen so that the hash runs through one value for all: each point passed by all before it.
+TEST(HostileInput, PointsThatShareASlotAreParted) {
+  const auto step = [](std::uint64_t h) {
+    h *= 0x9e3779b97f4a7c15;
+    return h ^ h >> 29U;
+  };
+  PointTable table;
+  constexpr std::uint32_t kPoints = 100'000;
+  for (std::uint32_t k = 0; k < kPoints; ++k) {
+    const double x = 1 + k;
+    const Vec3 p{x, std::bit_cast<double>(step(std::bit_cast<std::uint64_t>(x)) ^ 0x1234567U), 0};
+    ASSERT_EQ(table.number(p), k);
+    ASSERT_EQ(table.number(p), k);
+  }
+  EXPECT_GE(table.salts(), 1u) << "the points were meant to meet";
+  EXPECT_LE(table.salts(), 2u) << "and one other hash to part them";
+  PointTable plain;
+  for (std::uint32_t k = 0; k < kPoints; ++k)
+    ASSERT_EQ(plain.number({0.1 * (k % 317), 0.1 * (k / 317), 0}), k);
+  EXPECT_EQ(plain.salts(), 0u);
 }
 
 /// As paper 004 has it: the first corner that is an ear, searched anew each time.
