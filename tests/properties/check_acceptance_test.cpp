@@ -391,7 +391,7 @@ TEST(CheckAcceptance, Complaint11_DeclaredError) {
   EXPECT_EQ(verdict.terrain->samples_at, (Vec2{30, 50}));
   const CheckFinding* bound = find(verdict, FindingCode::declared_error, "samples");
   ASSERT_NE(bound, nullptr);
-  EXPECT_EQ(bound->at, (Vec3{30, 50, 0}));
+  EXPECT_EQ(bound->at, (Vec3{30, 50, 63}));
   EXPECT_THAT(said(verdict), HasSubstr("the declared 5 m does not hold: 7.25 m at 30, 50"));
 
   const CheckVerdict between = over(folder + "between.ply", folder + "dem_twin.asc", 5);
