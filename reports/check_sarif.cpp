@@ -15,6 +15,11 @@
 namespace plumbline::reports {
 namespace {
 
+/// Empty if there is no such mesh.
+std::string file_of(const verdict::CheckVerdict& verdict, std::uint32_t mesh) {
+  return mesh < verdict.meshes.size() ? verdict.meshes[mesh].file : std::string();
+}
+
 using oracle::FindingCode;
 using verdict::CheckFinding;
 using verdict::CheckVerdict;
@@ -114,8 +119,8 @@ Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::
   const oracle::Finding& plain = finding.finding;
   const bool named = finding.mesh < verdict.meshes.size();
   const bool paired = finding.other_mesh < verdict.meshes.size();
-  const std::string file = named ? verdict.meshes[finding.mesh].file : std::string();
-  const std::string other_file = paired ? verdict.meshes[finding.other_mesh].file : std::string();
+  const std::string file = file_of(verdict, finding.mesh);
+  const std::string other_file = file_of(verdict, finding.other_mesh);
   std::string text = fmt::format("{} At {}", message_words(finding), place_words(finding.at));
   if (paired)
     text += fmt::format(", between {} and {}", mesh_name(verdict, finding.mesh),

@@ -23,7 +23,6 @@ namespace plumbline::checking {
 namespace {
 
 namespace fs = std::filesystem;
-using oracle::Finding;
 using oracle::FindingCode;
 using oracle::Severity;
 

@@ -121,7 +121,8 @@ TEST(CheckSarif, NamesOfFilesBecomeReferences) {
 
 std::vector<std::string> prints(const verdict::CheckVerdict& check) {
   std::vector<std::string> out;
-  for (const Json& result : sarif_of(check)["runs"][0]["results"])
+  const Json sarif = sarif_of(check);  // outlives the loop: a range's temporaries do not
+  for (const Json& result : sarif["runs"][0]["results"])
     out.push_back(result["partialFingerprints"]["plumblineFinding/v1"]);
   return out;
 }
