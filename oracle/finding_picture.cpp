@@ -14,15 +14,16 @@ namespace plumbline::oracle {
 namespace {
 
 constexpr double kPanelPx = 220, kMarginPx = 24, kNotePx = 26;
-/// Oblique view: how much of a plan depth is left, how much of it shifts to the right, and how heights grow.
-constexpr double kDepthShare = 0.45, kShear = 0.25, kHeightScale = 1.5;
+/// Oblique view: how much of a plan depth is left, and how much of it shifts to the right.
+constexpr double kDepthShare = 0.45, kShear = 0.25;
 
 bool finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// One view: maps metres to pixels of its panel.
 class View {
  public:
-  View(const FindingScene& scene, bool oblique, double left_px) : oblique_(oblique), left_px_(left_px) {
+  View(const FindingScene& scene, bool oblique, double left_px)
+      : oblique_(oblique), height_scale_(scene.height_scale), left_px_(left_px) {
     for (const Vec3& p : scene.mesh.positions) {
       if (finite(p)) include(flat(p));
     }
@@ -42,7 +43,7 @@ class View {
  private:
   [[nodiscard]] Vec2 flat(Vec3 p) const {
     if (!oblique_) return {p.x, p.y};
-    return {p.x + kShear * p.y, kDepthShare * p.y + kHeightScale * p.z};
+    return {p.x + kShear * p.y, kDepthShare * p.y + height_scale_ * p.z};
   }
   void include(Vec2 p) {
     low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
@@ -50,7 +51,7 @@ class View {
   }
 
   bool oblique_;
-  double left_px_, scale_ = 1;
+  double height_scale_, left_px_, scale_ = 1;
   Vec2 low_{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   Vec2 high_{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
 };
@@ -108,10 +109,9 @@ void draw_finding(const FindingScene& scene, const View& view, const Finding& fi
   for (const std::uint32_t v : finding.vertices) {
     if (v >= scene.mesh.positions.size() || !finite(scene.mesh.positions[v])) continue;
     const Vec2 q = view.px(scene.mesh.positions[v]);
-    out += fmt::format(
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"3.5\" class=\"vertex\"/><text x=\"{2:.1f}\" "
-        "y=\"{3:.1f}\">{4}</text>\n",
-        q.x, q.y, q.x + 6, q.y - 5, v);
+    out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" class=\"vertex\"/>", q.x, q.y);
+    if (scene.numbers) out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", q.x + 6, q.y - 5, v);
+    out += '\n';
   }
   if (!finite(finding.at)) return;
   const Vec2 place = view.px(finding.at);

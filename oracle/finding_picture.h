@@ -16,8 +16,10 @@ struct FindingScene {
   const Mesh& mesh;
   const PlanDomain& domain;  ///< drawn as a dashed outline; may be empty
   std::span<const Finding> findings;
-  bool oblique = false;     ///< a second view, from the south and above, heights drawn larger
-  std::string_view note{};  ///< the line under the picture; empty: the first finding's own words
+  bool oblique = false;       ///< a second view, from the south and above, heights drawn larger
+  std::string_view note{};    ///< the line under the picture; empty: the first finding's own words
+  bool numbers = true;        ///< vertices of the findings carry their indices
+  double height_scale = 1.5;  ///< of the second view
 };
 
 /// A small SVG (no script, no outer file; its own light ground, so that dark pages show it as well): the mesh

@@ -244,9 +244,10 @@ class CheckPage {
     if (verdict_.seams.empty()) return;
     open("seams", "Seams",
          fmt::format(
-             "{} borders that two meshes share: {}. Gaps are signed: the first mesh's height minus the "
+             "{} border{} that two meshes share: {}. Gaps are signed: the first mesh's height minus the "
              "second's.",
-             verdict_.seams.size(), seam_totals_words(seam_totals(verdict_))));
+             verdict_.seams.size(), verdict_.seams.size() == 1 ? "" : "s",
+             seam_totals_words(seam_totals(verdict_))));
     if (const std::string advice = skirt_advice(verdict_); !advice.empty())
       body_ += fmt::format("<p class=\"lead\">{}</p>\n", markup_escape(advice));
     const bool levels = std::ranges::any_of(verdict_.seams, [](const auto& s) { return s.level >= 0; });

@@ -97,6 +97,14 @@ Json seam_totals_json(const CheckVerdict& verdict) {
   return out;
 }
 
+/// "302": 17, listed or not; null: nobody counted.
+Json totals_json(const CheckVerdict& verdict) {
+  if (verdict.totals.empty() && verdict.findings_total > 0) return nullptr;
+  Json out = Json::object();
+  for (const auto& [code, count] : verdict.totals) out[std::to_string(static_cast<int>(code))] = count;
+  return out;
+}
+
 /// The contract's figures, with their places in the file's coordinates.
 Json vertical_in_file(const verdict::TerrainVerdict& terrain) {
   Json out = vertical_json(terrain.vertical_m);
@@ -173,6 +181,7 @@ std::string check_json(const CheckVerdict& verdict) {
               {"conformity", conformity_json(verdict.conformity, subject_of(verdict))},
               {"tile_faults", verdict.tile_faults},
               {"findings_total", std::max(verdict.findings_total, verdict.findings.size())},
+              {"findings_by_code", totals_json(verdict)},
               {"findings", Json::array()},
               {"seam_states", seam_totals_json(verdict)},
               {"sufficient_skirt_m", judged(!verdict.seams.empty(), sufficient_skirt_m(verdict))},

@@ -24,8 +24,8 @@ using verdict::SeamState;
 using verdict::SeamVerdict;
 
 /// How many entries of each list a brief text shows.
-constexpr std::size_t kMeshes = 6, kFindingsOfACode = 4, kCodes = 8, kOpenSeams = 6, kCoveredSeams = 3,
-                      kWatertightSeams = 2, kNotes = 12;
+constexpr std::size_t kMeshes = 6, kFindingsOfACode = 4, kTileKinds = 10, kCodes = 8, kOpenSeams = 6,
+                      kCoveredSeams = 3, kWatertightSeams = 2, kNotes = 12;
 
 class CheckText {
  public:
@@ -129,13 +129,17 @@ class CheckText {
                                 link.empty() ? "" : ": " + link));
       std::size_t shown = 0;
       std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+      std::set<std::string> kinds;
+      const bool by_kind = group.code == oracle::FindingCode::tile_encoding;
+      const std::size_t most = cap(by_kind ? kTileKinds : kFindingsOfACode);
       for (const std::size_t i : group.listed) {
-        if (shown == cap(kFindingsOfACode)) break;
+        if (shown == most) break;
         const verdict::CheckFinding& one = verdict_.findings[i];
         // Of one seam the worst place is enough to begin with.
         if (listing_ == Listing::brief && one.other_mesh != verdict::kNoMesh &&
             !pairs.insert(std::minmax(one.mesh, one.other_mesh)).second)
           continue;
+        if (listing_ == Listing::brief && by_kind && !kinds.insert(one.finding.kind).second) continue;
         finding(one);
         ++shown;
       }

@@ -50,9 +50,12 @@ std::string open_seams(const CheckVerdict& verdict) {
       worst = &seam;
   const std::string pair = fmt::format("between {} and {}", mesh_name(verdict, worst->mesh),
                                        mesh_name(verdict, worst->other_mesh));
-  if (worst->largest_gap_m == 0) return fmt::format("{} without a height gap, the first {}", out, pair);
-  return fmt::format("{}, worst gap {} {} at {}", out, signed_metres(worst->largest_gap_m), pair,
-                     place_words(worst->largest_at));
+  if (worst->largest_gap_m == 0)
+    return fmt::format("{} without a height gap, the first {} ({})", out, pair,
+                       counted_code(FindingCode::t_junction, worst->t_junctions));
+  return fmt::format("{}, worst gap {} {} at {}; a skirt of {} below every border would cover all", out,
+                     signed_metres(worst->largest_gap_m), pair, place_words(worst->largest_at),
+                     sufficient_metres(sufficient_skirt_m(verdict)));
 }
 
 bool matches_otherwise(const CheckVerdict& verdict) {
@@ -77,10 +80,29 @@ std::string declared_headline(const CheckVerdict& verdict) {
   if (verdict.reference && verdict.reference->declared_m) {
     const double bound = *verdict.reference->declared_m;
     if (verdict.reference->declared_holds) return fmt::format("the declared {} holds", metres(bound));
-    return fmt::format("the declared {} {}", metres(bound),
-                       verdict.reference->declared_broken ? "does not hold" : "is undecided");
+    if (!verdict.reference->declared_broken)
+      return fmt::format("the declared {} is undecided", metres(bound));
+    return fmt::format("the declared {} does not hold: {} or more", metres(bound),
+                       metres(verdict.reference->likeness.hausdorff().least_m));
   }
   return {};
+}
+
+/// "2 corner_missing, 1 sphere": of the listed ones, in their order.
+std::string kinds_of(const CheckVerdict& verdict, const CodeGroup& group) {
+  std::vector<std::pair<std::string, std::size_t>> kinds;
+  for (const std::size_t i : group.listed) {
+    const std::string& kind = verdict.findings[i].finding.kind;
+    const auto known = std::ranges::find(kinds, kind, &std::pair<std::string, std::size_t>::first);
+    if (known == kinds.end()) {
+      kinds.emplace_back(kind, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  std::vector<std::string> out;
+  for (const auto& [kind, count] : kinds) out.push_back(fmt::format("{} {}", count, kind));
+  return fmt::format("{}", fmt::join(out, ", "));
 }
 
 /// "12 cracks (the worst gap +4.2 m at 1, 2, 3), 1 hole": worst first; a place for the very worst, unless a
@@ -99,6 +121,12 @@ std::string code_words(const CheckVerdict& verdict, bool hazards, bool seams_tol
       continue;
     }
     parts.push_back((group.exact ? "" : "at least ") + counted_code(group.code, group.count));
+    if (group.code == FindingCode::skirt_visible && verdict.image)
+      parts.back() += fmt::format(" ({} of {} pixels)", verdict.image->skirt_px, verdict.image->mesh_px);
+    if (group.code == FindingCode::tile_encoding) {
+      parts.back() += fmt::format(" ({})", kinds_of(verdict, group));
+      continue;
+    }
     if (parts.size() > 1 || seams_told || group.listed.empty()) continue;
     const verdict::CheckFinding& worst = verdict.findings[group.listed.front()];
     const std::string size = size_words(worst.finding);
@@ -111,7 +139,7 @@ std::string code_words(const CheckVerdict& verdict, bool hazards, bool seams_tol
     parts.back() += fmt::format(" ({})", where);
   }
   std::string out = fmt::format("{}", fmt::join(parts, ", "));
-  if (left > 0) out += fmt::format(" and {} more kinds", left);
+  if (left > 0) out += fmt::format(" and {} more kind{}", left, left == 1 ? "" : "s");
   return out;
 }
 
@@ -181,8 +209,12 @@ std::string headline_words(const CheckVerdict& verdict) {
                                                     : "no fault in how the triangles hang together");
     if (!verdict.seams.empty()) parts.push_back("seams: " + seam_totals_words(seam_totals(verdict)));
   }
-  if (const std::string hazards = code_words(verdict, true, true); !hazards.empty())
-    parts.push_back("hazards: " + hazards);
+  if (const std::string hazards = code_words(verdict, true, true); !hazards.empty()) {
+    // Where they alone make it faulty (--strict), they come first.
+    const bool alone =
+        !verdict.sound && !open && faults.empty() && declared.empty() && !matches_otherwise(verdict);
+    parts.insert(alone ? parts.begin() : parts.end(), "hazards: " + hazards);
+  }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 

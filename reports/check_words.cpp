@@ -88,6 +88,10 @@ const oracle::FindingDescription* catalogue_entry(FindingCode code) {
 
 /// How often a code was met, whatever the list holds; nothing if nobody counts it.
 std::optional<std::size_t> complete_count(const CheckVerdict& verdict, FindingCode code) {
+  if (!verdict.totals.empty()) {
+    const auto known = verdict.totals.find(code);
+    return known == verdict.totals.end() ? 0 : known->second;
+  }
   if (code == FindingCode::tile_encoding) return verdict.tile_faults;
   if (code == FindingCode::t_junction) return std::nullopt;  // its count has T-vertices with a gap, too
   for (const FindingColumn& column : finding_columns())

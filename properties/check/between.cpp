@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -222,9 +223,12 @@ void report_seam(Examination& exam, const Pair& pair, const oracle::Seam& seam) 
   exam.verdict.seams.push_back(out);
   first.facts.least_skirt_m = std::max(first.facts.least_skirt_m, out.least_skirt_m);
   second.facts.least_skirt_m = std::max(second.facts.least_skirt_m, out.least_skirt_other_m);
-  if (pair.must_meet) {
-    exam.verdict.conformity.t_junction += seam.t_junctions;
-    exam.verdict.conformity.crack += seam.cracks;
+  // Between levels vertices miss each other by construction: what a skirt hides there is no defect.
+  const bool levels = out.level != out.other_level;
+  for (const oracle::SeamGap& gap : seam.gaps) {
+    if (!pair.must_meet || (levels && gap.covered)) continue;
+    exam.verdict.conformity.t_junction += gap.t_junction;
+    exam.verdict.conformity.crack += gap.sign != 0;
   }
   list_gaps(exam, pair, seam);
   judge_normals(exam, pair, seam);
@@ -232,10 +236,22 @@ void report_seam(Examination& exam, const Pair& pair, const oracle::Seam& seam) 
 
 void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
   const double unit = pair.height_unit_m;
+  const std::optional<TilePlace>&tile = exam.subjects[pair.first].tile,
+        &other = exam.subjects[pair.second].tile;
+  const bool levels = tile && other && tile->level != other->level;
+  const auto is_rounding = [&](const oracle::SeamGap& gap) {
+    return gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m;
+  };
+  // Rounding explains that two heights of one place differ, not that one of them is missing.
+  const auto is_fault = [&](const oracle::SeamGap& gap) {
+    return pair.must_meet && !gap.covered && !(is_rounding(gap) && !gap.t_junction);
+  };
   std::vector<const oracle::SeamGap*> worst;
-  for (const oracle::SeamGap& gap : seam.gaps) worst.push_back(&gap);
-  std::stable_sort(worst.begin(), worst.end(), [](const auto* a, const auto* b) {
-    if (a->covered != b->covered) return !a->covered;
+  for (const oracle::SeamGap& gap : seam.gaps) {
+    if (!(levels && gap.covered && gap.sign == 0)) worst.push_back(&gap);
+  }
+  std::stable_sort(worst.begin(), worst.end(), [&](const auto* a, const auto* b) {
+    if (is_fault(*a) != is_fault(*b)) return is_fault(*a);
     return std::fabs(a->gap_m) > std::fabs(b->gap_m);
   });
   if (!pair.must_meet) {
@@ -244,18 +260,19 @@ void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
     worst.resize(std::min<std::size_t>(worst.size(), 1));
     if (!worst.empty() && worst.front()->sign == 0) worst.clear();
   }
-  exam.verdict.findings_total += worst.size() - std::min(worst.size(), kGapsListed);
+  for (std::size_t k = kGapsListed; k < worst.size(); ++k) {
+    ++exam.verdict.findings_total;
+    ++exam.verdict.totals[worst[k]->sign == 0 ? FindingCode::t_junction : FindingCode::crack];
+  }
   for (std::size_t k = 0; k < std::min(worst.size(), kGapsListed); ++k) {
     const oracle::SeamGap& gap = *worst[k];
     verdict::CheckFinding found;
     Finding& finding = found.finding;
     finding.code = gap.sign == 0 ? FindingCode::t_junction : FindingCode::crack;
-    const bool rounding = gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m;
-    // Rounding explains that two heights of one place differ, not that one of them is missing.
-    const bool excused = rounding && !gap.t_junction;
+    const bool rounding = is_rounding(gap);
     if (gap.sign != 0)
-      finding.kind = excused ? "quantization" : gap.t_junction ? "t_vertex" : "height_mismatch";
-    finding.severity = gap.covered || excused || !pair.must_meet ? Severity::hazard : Severity::fault;
+      finding.kind = gap.t_junction ? "t_vertex" : rounding ? "quantization" : "height_mismatch";
+    finding.severity = is_fault(gap) ? Severity::fault : Severity::hazard;
     finding.gap_m = gap.gap_m * unit;
     finding.at = gap.at;
     const bool vertex_of_second = gap.t_junction && !gap.of_first;
@@ -296,6 +313,7 @@ void judge_between(Examination& exam) {
   std::stable_sort(exam.verdict.seams.begin(), exam.verdict.seams.end(),
                    [](const verdict::SeamVerdict& a, const verdict::SeamVerdict& b) {
                      if (a.state != b.state) return a.state > b.state;
+                     if (a.must_meet != b.must_meet) return a.must_meet;
                      return std::fabs(a.largest_gap_m) > std::fabs(b.largest_gap_m);
                    });
 }

@@ -84,6 +84,7 @@ void gather(Examination& exam, std::vector<CheckFinding> more) {
   for (const CheckFinding& found : all) {
     verdict.sound = verdict.sound && !makes_faulty(found, exam.request.strict);
     verdict.tile_faults += found.finding.code == FindingCode::tile_encoding;
+    ++verdict.totals[found.finding.code];
   }
   // Tiles were judged on their lattice; the frame of the check is longitude and latitude.
   for (CheckFinding& found : all) {

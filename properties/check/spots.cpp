@@ -19,6 +19,8 @@ namespace {
 
 /// Spots of a report, spots of one code among them, and triangles of a spot: what a person looks at.
 constexpr std::size_t kMostSpots = 12, kSpotsOfACode = 4, kSpotTriangles = 240;
+/// Heights in a picture, as a share of its width.
+constexpr double kRiseShare = 0.3;
 /// How far around, in lengths of the longest edge at the finding.
 constexpr double kReach = 2.5;
 /// Metres per degree of latitude, for pictures.
@@ -155,8 +157,33 @@ class SpotMaker {
         drawn.vertices.push_back(known->second);
     }
     if (spot.mesh.triangles.empty()) return;
-    const bool oblique = found_.finding.code == oracle::FindingCode::crack;
-    spot.picture_svg = oracle::finding_picture({spot.mesh, {}, std::span(&drawn, 1), oblique, {}});
+    draw(spot, drawn);
+  }
+
+  /// Heights are drawn so large that a step of metres shows on tiles of kilometres.
+  void draw(verdict::CheckSpot& spot, const oracle::Finding& drawn) const {
+    using enum oracle::FindingCode;
+    const oracle::FindingCode code = found_.finding.code;
+    const bool oblique =
+        code == crack || code == skirt_visible || code == self_intersection || code == border_normal;
+    Vec3 low = spot.mesh.positions.front(), high = low;
+    for (const Vec3& p : spot.mesh.positions) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const PlanDomain none;
+    oracle::FindingScene scene{spot.mesh, none, std::span(&drawn, 1), oblique, {}, false};
+    const double rise = high.z - low.z, wanted = kRiseShare * std::max(high.x - low.x, high.y - low.y);
+    const bool raised = oblique && rise > 0 && rise * scene.height_scale < wanted;
+    if (raised) scene.height_scale = wanted / rise;
+    std::string note = fmt::format("{} {}", static_cast<int>(code), oracle::finding_name(code));
+    if (!drawn.kind.empty()) note += fmt::format(" ({})", drawn.kind);
+    if (drawn.gap_m != 0) note += ", " + length_text(std::fabs(drawn.gap_m));
+    if (raised)
+      note +=
+          fmt::format("; heights drawn {:.{}f} times", scene.height_scale, scene.height_scale < 10 ? 1 : 0);
+    scene.note = note;
+    spot.picture_svg = oracle::finding_picture(scene);
   }
 
   const Examination& exam_;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -146,6 +147,8 @@ struct CheckVerdict {
   std::vector<SeamVerdict> seams;       ///< worst first
   std::vector<CheckFinding> findings;   ///< worst first; the list is capped, the counts are complete
   std::size_t findings_total = 0;
+  std::map<oracle::FindingCode, std::size_t>
+      totals{};  ///< of each code, listed or not; empty: nobody counted
   std::optional<TerrainVerdict> terrain;
   std::optional<ReferenceVerdict> reference;
   std::optional<ImageVerdict> image;

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "properties/check/check.h"
+#include "scenarios/whole_file.h"
 #include "tests/properties/corpus_parts.h"
 #include "tests/scenarios/support.h"
 
@@ -148,17 +149,19 @@ TEST(CheckFormatsTogether, QuantizedMesh) {
   constexpr double kEnd = kTileSteps;
   const double second =
       4 * (kEnd - 24000) / (kEnd - 16000);  // the western edge's height at the second vertex
-  folder.write("10/1066/766.terrain",
-               encode_quantized_mesh(test::fan_tile(
-                   grid, west, {{0, 0, 0}, {kEnd, 0, 0}, {kEnd, 16000, 4}, {kEnd, kEnd, 0}, {0, kEnd, 0}})));
-  folder.write("10/1067/766.terrain", encode_quantized_mesh(test::fan_tile(grid, east,
-                                                                           {{0, 0, 0},
-                                                                            {kEnd, 0, 0},
-                                                                            {kEnd, kEnd, 0},
-                                                                            {0, kEnd, 0},
-                                                                            {0, 24000, 3},
-                                                                            {0, 16000, 4},
-                                                                            {0, 8000, 3}})));
+  write_whole_file(
+      folder.path() / "10/1066/766.terrain",
+      encode_quantized_mesh(test::fan_tile(
+          grid, west, {{0, 0, 0}, {kEnd, 0, 0}, {kEnd, 16000, 4}, {kEnd, kEnd, 0}, {0, kEnd, 0}})));
+  write_whole_file(folder.path() / "10/1067/766.terrain",
+                   encode_quantized_mesh(test::fan_tile(grid, east,
+                                                        {{0, 0, 0},
+                                                         {kEnd, 0, 0},
+                                                         {kEnd, kEnd, 0},
+                                                         {0, kEnd, 0},
+                                                         {0, 24000, 3},
+                                                         {0, 16000, 4},
+                                                         {0, 8000, 3}})));
   const CheckVerdict verdict = judged({folder.path()});
   EXPECT_FALSE(verdict.sound);
   ASSERT_EQ(verdict.seams.size(), 1u);
@@ -171,6 +174,43 @@ TEST(CheckFormatsTogether, QuantizedMesh) {
   EXPECT_EQ(verdict.findings[0].finding.kind, "t_vertex");
   EXPECT_EQ(verdict.meshes[verdict.findings[0].mesh].file, "10/1067/766.terrain");
   EXPECT_THAT(verdict.notes, testing::Contains(HasSubstr("layer.json")));
+}
+
+/// Four places of rounding are listed at most; a vertex that one side lacks stands before them.
+TEST(CheckFormatsTogether, RoundingHidesNoMissingVertex) {
+  const test::TemporaryFolder folder;
+  const TileGrid grid;
+  const TileAddress west{10, 1066, 766}, east{10, 1067, 766};
+  constexpr double kEnd = kTileSteps;
+  const auto write = [&](const TileAddress& address, std::vector<Vec3> outline, double raised) {
+    QuantizedMesh tile = test::fan_tile(grid, address, outline);
+    tile.max_height_m +=
+        static_cast<float>(raised);  // another step of height: what is not the least is rounded elsewhere
+    test::set_header(tile, grid, address);
+    write_whole_file(folder.path() / (tile_name(address) + ".terrain"), encode_quantized_mesh(tile));
+  };
+  const std::vector<double> rows{4000, 8000, 12000, 16000, 20000, 24000};
+  std::vector<Vec3> western{{0, 0, 0}, {kEnd, 0, 0}},
+      eastern{{0, 0, 0}, {kEnd, 0, 0}, {kEnd, kEnd, 0}, {0, kEnd, 0}};
+  for (const double row : rows) western.push_back({kEnd, row, 1});
+  western.insert(western.end(), {{kEnd, kEnd, 0}, {0, kEnd, 0}});
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) eastern.push_back({0, *row, 1});
+  eastern.insert(eastern.begin() + 4, {0, 28000, (kEnd - 28000) / (kEnd - 24000)});
+  eastern[4].z = std::floor(eastern[4].z * 128) / 128;
+  write(west, western, 0);
+  write(east, eastern, 1);
+  const CheckVerdict verdict = judged({folder.path()});
+  EXPECT_FALSE(verdict.sound);
+  ASSERT_EQ(verdict.seams.size(), 1u);
+  EXPECT_EQ(verdict.seams[0].t_junctions, 1u);
+  EXPECT_GT(verdict.seams[0].cracks, 5u);
+  EXPECT_LE(std::fabs(verdict.seams[0].largest_gap_m), verdict.seams[0].quantum_m);
+  ASSERT_FALSE(verdict.findings.empty());
+  EXPECT_EQ(verdict.findings[0].finding.kind, "t_vertex");
+  EXPECT_EQ(verdict.findings[0].finding.severity, oracle::Severity::fault);
+  EXPECT_THAT(verdict.findings[0].message, HasSubstr("no more than the rounding"));
+  EXPECT_EQ(verdict.findings[1].finding.kind, "quantization");
+  EXPECT_EQ(verdict.findings_total, verdict.seams[0].cracks);
 }
 
 /// Survey coordinates: a millimetre at five million metres is within doubles, and lost in single precision.

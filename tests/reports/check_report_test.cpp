@@ -200,10 +200,10 @@ Names keys(const Json& object) {
 
 TEST(CheckJson, NamesOfTheContract) {
   const Json read = Json::parse(check_json(sample::terrain_check()));
-  EXPECT_THAT(keys(read),
-              ElementsAre("schema", "verdict", "headline", "frame", "meshes", "conformity", "tile_faults",
-                          "findings_total", "findings", "seam_states", "sufficient_skirt_m", "seams",
-                          "vertical_m", "displacement_px", "terrain", "reference", "image", "notes"));
+  EXPECT_THAT(keys(read), ElementsAre("schema", "verdict", "headline", "frame", "meshes", "conformity",
+                                      "tile_faults", "findings_total", "findings_by_code", "findings",
+                                      "seam_states", "sufficient_skirt_m", "seams", "vertical_m",
+                                      "displacement_px", "terrain", "reference", "image", "notes"));
   EXPECT_EQ(read["schema"], "plumbline.check/1");
   EXPECT_EQ(read["verdict"], "faulty");
   EXPECT_EQ(Json::parse(check_json(sample::sound_check()))["verdict"], "sound");
