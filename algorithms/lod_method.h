@@ -40,6 +40,7 @@ struct LodFrame {
   PlanDomain domain;  ///< the plan region this frame promises to cover
   Counters counters;
 
+  /// Empty, with the memory kept for the next frame.
   void clear() {
     mesh.clear();
     vertex_keys.clear();

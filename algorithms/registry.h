@@ -27,14 +27,18 @@ enum class Promise {
   screen_error_within_tau,  ///< no point of the picture is displaced by more than the threshold
   continuous_in_camera,     ///< while the camera stands still, merging changes nothing visible
 };
+/// As the enumerator is spelled.
 std::string_view promise_name(Promise promise);
 
+/// A variant of a method: what it does differently, and what it promises then.
 struct VariantDescription {
   std::string name;  ///< without the method's id; "" is the published default
   std::string summary;
   std::vector<Promise> promises;
 };
 
+/// An option that a suite's `[[method]] options` may set; a value of another type than the default's is
+/// refused.
 struct OptionDescription {
   std::string name;
   std::string summary;
@@ -51,23 +55,34 @@ struct ClaimDescription {
 struct MethodDescription {
   std::string id;  ///< "block_bintree"
   std::string title;
-  std::string citation;                      ///< authors, title, venue, year
-  std::string section;                       ///< where in METHODS / the paper: "M4", "reference"
-  std::vector<VariantDescription> variants;  ///< first: the published default, name ""
-  std::vector<OptionDescription> options;
-  std::vector<ClaimDescription> claims;
+  std::string citation{};  ///< authors, title, venue, year; empty: unpublished
+  std::string section{};   ///< where in METHODS / the paper: "M4", "reference"; may be empty
+  std::vector<VariantDescription> variants{};  ///< first: the published default, name ""
+  std::vector<OptionDescription> options{};
+  std::vector<ClaimDescription> claims{};
   bool takes_objects = false;  ///< general meshes too (LodMethod::prepare_objects), not terrains alone
   /// `variant` is one of the names above; options are checked against `options` before the call.
-  std::function<std::unique_ptr<LodMethod>(std::string_view variant, const Options& options)> make;
+  std::function<std::unique_ptr<LodMethod>(std::string_view variant, const Options& options)> make{};
 };
 
-/// All methods, in the order of the plumbline_add_method lines.
+/// The methods that plumbline brings along, in the order of the plumbline_add_method lines.
+const std::vector<MethodDescription>& built_in_methods();
+
+/// Enters methods of your own behind the built-in ones, in the order given; run_program (cli/program.h) calls
+/// it. Call it before anything looks a method up: the first look-up closes the registry, and what it gave
+/// stays valid to the end. Throws InputError, and enters none of them, for an id that is taken or is no name
+/// (a small letter, then small letters, digits and '_'), for a description without title, factory or
+/// published variant, and for a registry that is closed.
+void register_methods(std::vector<MethodDescription> methods);
+
+/// All methods: the built-in ones, then those that were entered. The same list from the first call on.
 const std::vector<MethodDescription>& registered_methods();
 
 /// A method with its variant chosen.
 struct MethodChoice {
   const MethodDescription* method = nullptr;
   const VariantDescription* variant = nullptr;
+  /// Whether this variant promises it.
   [[nodiscard]] bool promises(Promise promise) const;
 };
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Looking up methods, variants and options by name. The list itself is written by
-// cmake/PlumblineMethods.cmake.
+// Looking up methods, variants and options by name.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -21,6 +21,7 @@ inline constexpr int kInterrupted = 130;
 const std::atomic<bool>& interrupted();
 
 void add_run(CLI::App& program, int& status);
+void add_check(CLI::App& program, int& status);
 void add_fuzz(CLI::App& program, int& status);
 void add_replay(CLI::App& program, int& status);
 void add_list(CLI::App& program, int& status);

@@ -36,9 +36,9 @@ void list_methods() {
 }
 
 void list_terrains() {
-  fmt::print("terrains (generators; `file` takes anything that GDAL opens)\n");
+  fmt::print("terrains (generators; `file` takes anything that GDAL opens, `points` surveyed points)\n");
   for (const GeneratorDescription& generator : terrain_generators()) line(generator.name, generator.summary);
-  fmt::print("meshes (generators; `file` takes PLY, OBJ, OFF and STL)\n");
+  fmt::print("meshes (generators; `file` takes PLY, OBJ, OFF, STL, GLB and glTF)\n");
   for (const MeshGenerator& generator : mesh_generators()) line(generator.name, generator.summary);
 }
 
@@ -54,13 +54,30 @@ void list_laws() {
   for (const properties::Law& law : properties::all_laws()) line(law.id, law.statement, law.source);
 }
 
+/// In the order of ORACLES, then what `check` asks besides; each is named after its header in oracle/.
+constexpr struct Oracle {
+  const char *name, *judges, *source;
+} kOracles[] = {
+    {"conformity", "covers its domain once, edge to edge, at equal heights; exact", "ORACLES O1"},
+    {"vertical", "sup-norm, RMS and mean of the height error over the whole overlay, not sampled",
+     "ORACLES O2"},
+    {"image", "displacement, depth, silhouette and popping in pixels, a ray for each", "ORACLES O3"},
+    {"economy", "how many vertices the scene does not need at the same threshold", "ORACLES O4"},
+    {"stability", "what toggles, lags behind a cut, trembles, or depends on the way flown", "ORACLES O5"},
+    {"shape", "triangle quality, least angle, slivers, valence", "ORACLES O6"},
+    {"soundness", "objects: indices, finite coordinates, triangles without area, manifold edges; exact",
+     "ORACLES O7"},
+    {"likeness", "objects: self-intersections (exact), certified distances in space, normals", "ORACLES O7"},
+    {"border", "where a mesh ends, exactly as its file has it, and the skirts that hang there", "check"},
+    {"seams", "between two meshes: cracks and T-junctions on the common border, exact, and what skirts hide",
+     "check"},
+    {"placement", "a mesh that lies flipped, transposed, shifted or scaled over its DEM", "check"},
+    {"tile_conformance", "one quantized-mesh tile against its format", "check"},
+};
+
 void list_oracles() {
   fmt::print("oracles\n");
-  line("conformity", "covers its domain once, edge to edge, at equal heights; exact", "ORACLES O1");
-  line("vertical", "sup-norm, RMS and mean of the height error over the whole overlay, not sampled",
-       "ORACLES O2");
-  line("image", "displacement, depth, silhouette and popping in pixels, by ray casting", "ORACLES O3");
-  line("shape", "triangle quality, least angle, slivers, valence", "ORACLES O6");
+  for (const Oracle& oracle : kOracles) line(oracle.name, oracle.judges, oracle.source);
   fmt::print("findings\n");
   for (const oracle::FindingDescription& finding : oracle::finding_catalogue()) {
     line(fmt::format("{} {}", static_cast<int>(finding.code), finding.name), std::string(finding.definition));

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/shipped.h"
 #include "properties/harness/run_suite.h"
 #include "properties/selftest/selftest.h"
 #include "reports/report.h"
@@ -57,8 +59,16 @@ std::string repeat_line(const RunArguments& arguments) {
   return line;
 }
 
+/// A file, or the bare name of a shipped one ("smoke.toml").
+std::filesystem::path suite_file(const std::filesystem::path& named) {
+  std::error_code error;
+  if (named.has_parent_path() || std::filesystem::exists(named, error)) return named;
+  const std::filesystem::path one_shipped = shipped("suites" / named);
+  return std::filesystem::exists(one_shipped, error) ? one_shipped : named;
+}
+
 int run(const RunArguments& arguments) {
-  Suite suite = load_suite(arguments.suite);
+  Suite suite = load_suite(suite_file(arguments.suite));
   if (!arguments.expected.empty()) suite.expected = read_expected(arguments.expected, suite);
   if (!arguments.write_expected.empty() && !arguments.methods.empty()) {
     throw InputError(
@@ -105,7 +115,10 @@ void add_run(CLI::App& program, int& status) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = program.add_subcommand(
       "run", "Fly a suite's methods over its terrains and trajectories, judge every frame, write a report");
-  command->add_option("suite", arguments->suite, "suite file (TOML)")->required();
+  command
+      ->add_option("suite", arguments->suite,
+                   "suite file (TOML), or the name of a shipped one: default.toml, smoke.toml, …")
+      ->required();
   command->add_option("--out", arguments->out, "folder for the report")->capture_default_str();
   command->add_option("--jobs", arguments->jobs, "threads; 0: one a core")->check(CLI::Range(0, 1024));
   command->add_option("--methods", arguments->methods,

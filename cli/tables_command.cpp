@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/shipped.h"
 #include "properties/harness/machine.h"
 #include "properties/tables/make_tables.h"
 #include "reports/tables_report.h"
@@ -28,21 +28,12 @@ struct TablesArguments {
   bool quiet = false;
 };
 
-/// The real terrain that is shipped: in the source tree, or beside an installed program.
-std::filesystem::path shipped_terrain() {
-  const std::filesystem::path in_source = std::filesystem::path(PLUMBLINE_ASSETS) / "jacksboro.vrt";
-  std::error_code error;
-  if (std::filesystem::exists(in_source, error)) return in_source;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return program.parent_path().parent_path() / "share/plumbline/assets/jacksboro.vrt";
-}
-
 int tables(const TablesArguments& arguments) {
   const std::vector<std::string> papers = tables::choose_tables(arguments.names);
   const std::filesystem::path out = arguments.out;
   if (!out.empty()) require_writable(out);  // known before the work, not after
   tables::TableSettings settings = tables::published_settings(
-      arguments.terrain.empty() ? shipped_terrain() : std::filesystem::path(arguments.terrain));
+      arguments.terrain.empty() ? shipped("assets/jacksboro.vrt") : std::filesystem::path(arguments.terrain));
 
   for (const std::string& mesh : arguments.meshes)
     settings.p4.meshes.push_back(tables::load_mesh_stand_in(mesh));

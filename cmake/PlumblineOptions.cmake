@@ -52,9 +52,12 @@ if(PLUMBLINE_PRECOMPILE)
                       "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()
 
-# plumbline_library(<folder> SOURCES … LINKS … PRIVATE_LINKS …): one static library per folder, alias plumbline::<folder>.
+# plumbline_library(<folder> SOURCES … HEADERS … LINKS … PRIVATE_LINKS …): one static library per folder, alias
+# plumbline::<folder>. HEADERS are the public ones: they are installed, and script/package holds them to their rules.
+# All libraries are installed, and plumbline::plumbline links them; in PRIVATE_LINKS, what is only headers or only
+# objects stands inside $<BUILD_INTERFACE:…>, so that users need not have it.
 function(plumbline_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(plumbline_${name} STATIC ${ARG_SOURCES})
   add_library(plumbline::${name} ALIAS plumbline_${name})
   target_compile_features(plumbline_${name} PUBLIC cxx_std_20)
@@ -63,5 +66,8 @@ function(plumbline_library name)
                                                       $<INSTALL_INTERFACE:include/plumbline>)
   target_link_libraries(plumbline_${name} PUBLIC plumbline_fp ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS}
                                           $<BUILD_INTERFACE:plumbline_warnings>)
+  target_sources(plumbline_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
   plumbline_precompile(plumbline_${name})
+  set_target_properties(plumbline_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY PLUMBLINE_LIBRARIES plumbline_${name})
 endfunction()

@@ -21,7 +21,8 @@ using namespace detail;
 
 class Check {
  public:
-  Check(const Mesh& mesh, const PlanDomain& domain) : mesh_(mesh), domain_(domain) {}
+  Check(const Mesh& mesh, const PlanDomain& domain, bool outline_is_free = false)
+      : mesh_(mesh), domain_(domain), outline_is_free_(outline_is_free) {}
 
   ConformityReport run() {
     survey_ = survey(mesh_);
@@ -43,9 +44,14 @@ class Check {
                           report_.findings);
     }
     report_.left_over_edges = match.left_over.size();
+    if (treatment_.empty()) {
+      std::vector<LooseEdge>& loose = report_.loose_edges.emplace();
+      loose.reserve(match.left_over.size());
+      for (const EdgeUse& use : match.left_over) loose.push_back({use.from, use.to, use.triangle});
+    }
     report_.counts.t_junction = seams.t_junctions;
     report_.counts.crack = seams.cracks;
-    if (seams.residual.needs_regions) find_regions(mesh_, seams.residual, report_.findings);
+    if (seams.residual.needs_regions) find_regions(mesh_, seams.residual, outline_is_free_, report_.findings);
     report_input();
     report_triangles();
     report_crowded(match.crowded);
@@ -272,6 +278,7 @@ class Check {
 
   const Mesh& mesh_;
   const PlanDomain& domain_;
+  bool outline_is_free_;
   ConformityReport report_;
   Survey survey_;
   std::vector<std::uint8_t> treatment_;  // empty: all normal
@@ -291,5 +298,7 @@ std::size_t ConformityCounts::total() const {
 ConformityReport check_conformity(const Mesh& mesh, const PlanDomain& domain) {
   return Check(mesh, domain).run();
 }
+
+ConformityReport check_conformity_without_outline(const Mesh& mesh) { return Check(mesh, {}, true).run(); }
 
 }  // namespace plumbline::oracle

@@ -123,7 +123,9 @@ Seams close_seams(const Mesh& mesh, const PlanDomain& domain, std::span<const Ed
                   std::span<const VertexPair> excused_edges, std::span<const std::uint32_t> excused_vertices,
                   bool duplicates_settled, std::vector<Finding>& findings);
 
-/// Station 5. Appends holes, overlaps and outline faults.
-void find_regions(const Mesh& mesh, const Residual& residual, std::vector<Finding>& findings);
+/// Station 5. Appends holes, overlaps and outline faults; with a free outline, holes that cover encloses and
+/// overlaps (or, where the borders are too many to arrange, finding 110 of kind "outline").
+void find_regions(const Mesh& mesh, const Residual& residual, bool outline_is_free,
+                  std::vector<Finding>& findings);
 
 }  // namespace plumbline::oracle::detail

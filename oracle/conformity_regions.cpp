@@ -43,6 +43,12 @@ Fault judge(int coverage, int promised) {
   return coverage >= 2 ? Fault::overlap : Fault::none;
 }
 
+/// Without a promise: what is covered once or lies outside is right.
+Fault judge_freely(int coverage, bool outside) {
+  if (coverage >= 2) return Fault::overlap;
+  return coverage == 1 || (coverage == 0 && outside) ? Fault::none : Fault::missing;
+}
+
 struct FaceLabel {
   int excess = 0, promised = 0;
   bool reached = false;
@@ -84,11 +90,20 @@ class RegionFinder {
   using Face = typename Arrangement::Face_handle;
 
  public:
-  RegionFinder(const Mesh& mesh, const Residual& residual, std::vector<Finding>& findings)
-      : mesh_(mesh), residual_(residual), findings_(findings), outline_(promised_sides(residual)) {}
+  RegionFinder(const Mesh& mesh, const Residual& residual, bool outline_is_free,
+               std::vector<Finding>& findings)
+      : mesh_(mesh),
+        residual_(residual),
+        free_(outline_is_free),
+        findings_(findings),
+        outline_(promised_sides(residual)) {}
 
   void find() {
     if (too_tangled()) {
+      if (free_) {
+        report_not_judged();
+        return;
+      }
       report_tangles();
       return;
     }
@@ -172,7 +187,9 @@ class RegionFinder {
         const ResidualSegment& s = segment(edge);
         there.excess = here.excess + sign * s.excess;
         there.promised = here.promised + sign * s.promised;
-        there.fault = judge(there.excess + there.promised, there.promised);
+        const int coverage = there.excess + there.promised;
+        there.fault = free_ ? judge_freely(coverage, edge->twin()->face()->is_unbounded())
+                            : judge(coverage, there.promised);
         there.reached = true;
         queue.push_back(edge->twin()->face());
       });
@@ -306,6 +323,17 @@ class RegionFinder {
     findings_.push_back(std::move(finding));
   }
 
+  /// Without a promised outline the borders themselves are residual: what is a tangle there, nobody can tell.
+  void report_not_judged() {
+    Finding finding;
+    finding.code = FindingCode::nothing_judged;
+    finding.kind = "outline";
+    Region region;
+    for (const ResidualSegment& s : residual_.segments) place(region, s.from);
+    finding.at = region.at;
+    findings_.push_back(std::move(finding));
+  }
+
   /// For residuals that are too many for an arrangement: one finding for each set of pieces that hang
   /// together by their ends. Its code says what outweighs there; its area is that excess, integrated.
   void report_tangles() {
@@ -351,6 +379,7 @@ class RegionFinder {
 
   const Mesh& mesh_;
   const Residual& residual_;
+  bool free_;
   std::vector<Finding>& findings_;
   SegmentTree outline_;
   std::vector<typename Kernel::Point_2> points_;
@@ -360,15 +389,16 @@ class RegionFinder {
 
 }  // namespace
 
-void find_regions(const Mesh& mesh, const Residual& residual, std::vector<Finding>& findings) {
+void find_regions(const Mesh& mesh, const Residual& residual, bool outline_is_free,
+                  std::vector<Finding>& findings) {
   const bool moderate = std::all_of(residual.points.begin(), residual.points.end(), [](Vec2 p) {
     const auto fits = [](double c) { return c == 0 || std::abs(std::ilogb(c)) <= kLazyExponent; };
     return fits(p.x) && fits(p.y);
   });
   if (moderate) {
-    RegionFinder<LazyKernel>(mesh, residual, findings).find();
+    RegionFinder<LazyKernel>(mesh, residual, outline_is_free, findings).find();
   } else {
-    RegionFinder<RationalKernel>(mesh, residual, findings).find();
+    RegionFinder<RationalKernel>(mesh, residual, outline_is_free, findings).find();
   }
 }
 

@@ -27,6 +27,22 @@ const std::vector<FindingDescription>& finding_catalogue() {
        R"(
     vertex 4 = (12, 30, nan)
 )"},
+      {tile_encoding,
+       "tile_encoding",
+       "A quantized-mesh tile breaks its format: what a client relies on when it decodes the tile, hangs "
+       "skirts from its edge lists or culls it by its sphere.",
+       {},
+       {{"corner_missing", "no triangle has a vertex at a corner of the tile"},
+        {"off_border", "the mesh ends inside of the tile's square, or its border is not at 0 and 32767"},
+        {"edge_list", "an edge list and the vertices on that side differ"},
+        {"index", "a triangle names a vertex that the tile does not have: the high-water mark is broken"},
+        {"range", "a coordinate lies outside 0 … 32767"},
+        {"height_range", "the header's heights are not finite or reversed; as a hazard: not all used"},
+        {"sphere", "a vertex lies outside of the header's bounding sphere"},
+        {"center", "a hazard: the header's center is far from the tile"},
+        {"normal", "normals are missing or zero; as a hazard: one points into the ground"},
+        {"trailing", "a hazard: bytes that belong to nothing"},
+        {"missing_tile", "layer.json advertises tiles that are not there"}}},
       {nothing_judged, "nothing_judged",
        "An oracle or a law had nothing to judge: no frame, no triangle in the picture, a precondition that "
        "never "
@@ -80,6 +96,26 @@ const std::vector<FindingDescription>& finding_catalogue() {
 )",
        {{"reversed", "it would fit its neighbours wound the other way round"},
         {"folded", "the surface itself turns over"}}},
+      {sliver,
+       "sliver",
+       "A triangle of quality under 0.05 in plan, or an edge a thousand times shorter than the median: "
+       "detail "
+       "that no picture shows, and shading that suffers. A hazard. One finding a mesh, at the worst place; "
+       "the count is with it.",
+       R"(
+    a──────────────────────────b
+     ╲________________________╱      4·√3·area / Σl² < 0.05
+                 c
+)",
+       {{"thin", "a triangle of little quality"}, {"short_edge", "an edge far below the others"}}},
+      {self_intersection, "self_intersection",
+       "Two triangles of an object meet elsewhere than in a corner or an edge that they share. Decided "
+       "exactly.",
+       R"(
+        ╱╲
+    ───╱──╲───      one triangle passes
+      ╱────╲        through the other
+)"},
       {t_junction, "t_junction",
        "A vertex in the open interior of another triangle's edge in plan, exactly at the edge's height. A "
        "hazard: "
@@ -101,7 +137,10 @@ const std::vector<FindingDescription>& finding_catalogue() {
     a───────────────c    over the coarse edge a c
 )",
        {{"t_vertex", "a vertex in the interior of an edge in plan, off its height"},
-        {"height_mismatch", "two edges with the same ends in plan, at different heights"}}},
+        {"height_mismatch", "two edges with the same ends in plan, at different heights"},
+        {"quantization",
+         "a hazard: two tiles have the vertex, and their heights differ by no more than their rounding"},
+        {"cliff", "a hazard: a wall closes the step, so that no daylight shows"}}},
       {hole, "hole",
        "A plan region inside the promised domain that no triangle covers, and that shares no stretch of the "
        "promised outline. Its area and its loop are given.",
@@ -138,7 +177,49 @@ const std::vector<FindingDescription>& finding_catalogue() {
        missing: the promised side runs straight on
 )",
        {{"missing", "along a stretch of the promised outline"}, {"extra", "beyond it"}}},
+      {slit,
+       "slit",
+       "The borders of two meshes run side by side, within a quarter of an edge, without meeting: a slit, or "
+       "an overlap, of that width. Found by distance, since nothing exact relates two borders that do not "
+       "meet; what does meet is decided exactly before.",
+       R"(
+    ───────a───────b───────
+    ───────a'──────b'──────      a and a' were meant to be one
+)",
+       {{"lattice", "tiles: vertices that miss their partner by one step of the lattice"}}},
+      {border_normal, "border_normal",
+       "At a vertex that two meshes share, their normals differ by more than 2 degrees (twice what two-byte "
+       "normals may err by, rounded up): the border shows as a line of light. A hazard."},
+      {misplaced,
+       "misplaced",
+       "Laid over the DEM as it is, the mesh is far off; in another arrangement it fits. Every other figure "
+       "against the DEM then speaks of the arrangement.",
+       {},
+       {{"rows_flipped", "it fits with north and south exchanged"},
+        {"columns_flipped", "it fits with east and west exchanged"},
+        {"transposed", "it fits with rows and columns exchanged"},
+        {"shifted", "it fits when moved by whole or half samples"},
+        {"height_offset", "it fits with a constant added to its heights"},
+        {"height_factor", "it fits with its heights multiplied (feet for metres)"}}},
+      {declared_error,
+       "declared_error",
+       "The error bound that the maker declared is not true: the mesh is farther from the DEM (or the "
+       "reference mesh) than that, whichever way the samples are read.",
+       {},
+       {{"samples", "at the samples already"},
+        {"between", "between the samples, outside of both ways to split the cell"},
+        {"reference", "from the reference mesh, certified"}}},
       {law_violated, "law_violated", "A law that the method promises does not hold on this input."},
+      {level_gap, "level_gap",
+       "The deepest tiles on the two sides of a border are two or more levels apart. A hazard: renderers "
+       "expect neighbours one level apart, and skirts are sized for that.",
+       R"(
+    ┌───────┬─┬─┐
+    │       ├─┼─┤
+    │   1   ├─┼─┤  3
+    │       ├─┼─┤
+    └───────┴─┴─┘
+)"},
       {error_over_threshold, "error_over_threshold",
        "The measured displacement in the picture is above the threshold that the method was given. A figure "
        "of each frame (displacement_px.over_threshold, the share of pixels) that a gate may limit; not "
@@ -146,6 +227,10 @@ const std::vector<FindingDescription>& finding_catalogue() {
       {uncovered, "uncovered",
        "Pixels whose reference point has no point of the mesh above or below it. A figure of each frame "
        "(displacement_px.uncovered_px) that a gate may limit; not listed place by place."},
+      {skirt_visible, "skirt_visible",
+       "Pixels that see a skirt's wall before anything else: the gap that the skirt hides shows as a cliff. "
+       "A "
+       "hazard."},
   };
   return catalogue;
 }
@@ -155,19 +240,38 @@ namespace {
 std::string stem(FindingCode code) {
   return fmt::format("{}_{}", static_cast<int>(code), finding_name(code));
 }
-/// Findings about laws need a method, so their example is a case file; the others' is a mesh.
+/// Findings about laws need a method, so their example is a case file. What `plumbline check` alone finds has
+/// a folder: meshes or tiles that belong together, and what else is asked: a DEM (dem.asc), a bound
+/// (declared_m.txt), a POSE (camera.txt). The others' is a mesh.
 std::string_view ending(FindingCode code) {
-  return code == FindingCode::nothing_judged || code == FindingCode::law_violated ? "toml" : "off";
+  using enum FindingCode;
+  switch (code) {
+    case nothing_judged:
+    case law_violated:
+      return ".toml";
+    case tile_encoding:
+    case sliver:
+    case self_intersection:
+    case slit:
+    case border_normal:
+    case misplaced:
+    case declared_error:
+    case level_gap:
+    case skirt_visible:
+      return "";
+    default:
+      return ".off";
+  }
 }
 
 }  // namespace
 
 std::string finding_example(FindingCode code) {
-  return fmt::format("tests/data/findings/{}.{}", stem(code), ending(code));
+  return fmt::format("tests/data/findings/{}{}", stem(code), ending(code));
 }
 
 std::string finding_twin(FindingCode code) {
-  return fmt::format("tests/data/findings/{}_twin.{}", stem(code), ending(code));
+  return fmt::format("tests/data/findings/{}_twin{}", stem(code), ending(code));
 }
 
 std::string finding_image(FindingCode code) { return fmt::format("images/findings/{}.svg", stem(code)); }

@@ -49,6 +49,7 @@ struct FindingKindDescription {
   std::string_view name;
   std::string_view meaning;
 };
+/// One entry of the catalogue.
 struct FindingDescription {
   FindingCode code;
   std::string_view name;
@@ -59,8 +60,8 @@ struct FindingDescription {
 /// In the order of the codes.
 const std::vector<FindingDescription>& finding_catalogue();
 std::string_view finding_name(FindingCode code);
-/// A small file that has this finding and no other, and a near twin that has none; paths from the project's
-/// folder. What judges them is said in their comments.
+/// A small file, or a folder of files that are checked together, that has this finding and no other, and a
+/// near twin that has none; paths from the project's folder. What judges them is said in their comments.
 std::string finding_example(FindingCode code);
 std::string finding_twin(FindingCode code);
 /// The picture of the example (finding_picture.h), a path from docs/.

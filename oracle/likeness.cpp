@@ -128,6 +128,26 @@ std::optional<Likeness> compare_in_space(const Mesh& mesh, const Mesh& reference
   return out;
 }
 
+Vec3 farthest_vertex(const Mesh& mesh, const Mesh& reference) {
+  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Surface>;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+  const std::optional<Converted> a = convert(mesh), b = convert(reference);
+  Vec3 out;
+  if (!a || !b || a->triangle.empty() || b->triangle.empty()) return out;
+  double most = -1;
+  for (const auto& [from, to] : {std::pair(&*a, &*b), std::pair(&*b, &*a)}) {
+    const Tree tree(faces(to->surface).first, faces(to->surface).second, to->surface);
+    for (const Surface::Vertex_index v : from->surface.vertices()) {
+      const Kernel::Point_3& p = from->surface.point(v);
+      const double squared = CGAL::to_double(tree.squared_distance(p));
+      if (!(squared > most)) continue;
+      most = squared;
+      out = {p.x(), p.y(), p.z()};
+    }
+  }
+  return out;
+}
+
 double projected_area_error(const PixelHits& reference_hits, const PixelHits& mesh_hits) {
   const auto seen = [](const PixelHits& hits) {
     return static_cast<double>(hits.triangle.size()) -

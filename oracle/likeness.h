@@ -26,6 +26,7 @@ struct CertifiedDistance {
   double least_m = 0, most_m = 0;
 };
 
+/// How like a mesh is to the object that it stands for, in space.
 struct Likeness {
   CertifiedDistance to_mesh;    ///< largest distance of a point of the reference from the mesh
   CertifiedDistance from_mesh;  ///< of a point of the mesh from the reference
@@ -43,6 +44,11 @@ struct Likeness {
 /// Requires: both have a triangle with area, all coordinates are finite, indices valid, within_m > 0. Nothing
 /// if one of them is no oriented manifold.
 std::optional<Likeness> compare_in_space(const Mesh& mesh, const Mesh& reference, double within_m);
+
+/// Of all vertices of the two meshes the one that is farthest from the other mesh's surface: where to look
+/// first. Rounded; where neither has area (no triangle to be near to), the origin. Requires as
+/// compare_in_space.
+Vec3 farthest_vertex(const Mesh& mesh, const Mesh& reference);
 
 /// The object's area in the picture against the reference's, as a share of it: pixels that see the mesh less
 /// those that see the reference, divided by these; 0 where neither is seen, +∞ where only the mesh is.

@@ -31,6 +31,34 @@ class SegmentTree {
     return std::sqrt(best2);
   }
 
+  /// Calls visit(segment) for each segment no farther from p than `distance`.
+  template <class Visit>
+  void visit_within(Vec2 p, double distance, Visit visit) const {
+    std::vector<std::uint32_t> todo;
+    if (!segments_.empty()) todo.push_back(0);
+    while (!todo.empty()) {
+      const std::uint32_t index = todo.back();
+      todo.pop_back();
+      const Node& node = nodes_[index];
+      if (off2(node, p) > distance * distance * kSafety) continue;
+      if (node.second_child != 0) {
+        todo.insert(todo.end(), {node.second_child, index + 1});
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.last; ++i) {
+        if (distance2(segments_[i], p) <= distance * distance) visit(segments_[i]);
+      }
+    }
+  }
+
+  /// From the nearest point of the segment to p, rounded.
+  static Vec2 offset(const PlanSegment& s, Vec2 p) {
+    const Vec2 d = s.b - s.a, e = p - s.a;
+    const double length2 = d.x * d.x + d.y * d.y;
+    const double share = length2 > 0 ? std::clamp((d.x * e.x + d.y * e.y) / length2, 0.0, 1.0) : 0.0;
+    return e - d * share;
+  }
+
  private:
   static constexpr std::size_t kLeafSize = 4;
   /// A box is passed over only if it is farther by more than rounding can explain.
@@ -69,18 +97,19 @@ class SegmentTree {
   }
 
   static double distance2(const PlanSegment& s, Vec2 p) {
-    const Vec2 d = s.b - s.a, e = p - s.a;
-    const double length2 = d.x * d.x + d.y * d.y;
-    const double share = length2 > 0 ? std::clamp((d.x * e.x + d.y * e.y) / length2, 0.0, 1.0) : 0.0;
-    const Vec2 off = e - d * share;
+    const Vec2 off = offset(s, p);
     return off.x * off.x + off.y * off.y;
+  }
+
+  static double off2(const Node& node, Vec2 p) {
+    const double dx = std::max({node.low.x - p.x, p.x - node.high.x, 0.0});
+    const double dy = std::max({node.low.y - p.y, p.y - node.high.y, 0.0});
+    return dx * dx + dy * dy;
   }
 
   void descend(std::uint32_t index, Vec2 p, double& best2) const {
     const Node& node = nodes_[index];
-    const double dx = std::max({node.low.x - p.x, p.x - node.high.x, 0.0});
-    const double dy = std::max({node.low.y - p.y, p.y - node.high.y, 0.0});
-    if (dx * dx + dy * dy > best2 * kSafety) return;
+    if (off2(node, p) > best2 * kSafety) return;
     if (node.second_child != 0) {
       descend(index + 1, p, best2);
       descend(node.second_child, p, best2);

@@ -4,6 +4,7 @@
 #include "oracle/shape.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -96,7 +97,8 @@ ShapeReport shape(const Mesh& mesh) {
   double least_quality = std::numeric_limits<double>::infinity();
   double least_tangent = std::numeric_limits<double>::infinity();
   PlanShape sharpest;
-  for (const auto& triangle : mesh.triangles) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
     const std::size_t count = mesh.positions.size();
     if (triangle[0] >= count || triangle[1] >= count || triangle[2] >= count) continue;
     const Vec3& a = mesh.positions[triangle[0]];
@@ -109,7 +111,10 @@ ShapeReport shape(const Mesh& mesh) {
 
     const PlanShape plan = plan_shape(a, b, c);
     quality_sum += plan.quality;
-    least_quality = std::min(least_quality, plan.quality);
+    if (plan.quality < least_quality) {
+      least_quality = plan.quality;
+      report.worst_triangle = t;
+    }
     if (plan.quality < kSliverQuality) ++report.slivers;
     const double tangent = plan.run > 0 ? plan.rise / plan.run : 0;
     if (tangent < least_tangent) {
@@ -131,6 +136,96 @@ ShapeReport shape(const Mesh& mesh) {
   report.mean_valence = 3 * static_cast<double>(judged) / static_cast<double>(used);
   report.mean_fan_length = static_cast<double>(judged) / static_cast<double>(fans.fans());
   return report;
+}
+
+namespace {
+
+/// Calls visit(from, to, vector from one to the other) for each triangle's three edges.
+template <class Visit>
+void each_edge(const Mesh& mesh, bool in_space, Visit&& visit) {
+  const std::size_t count = mesh.positions.size();
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (a >= count || b >= count || c >= count) continue;
+    Vec3 p = mesh.positions[a], q = mesh.positions[b], r = mesh.positions[c];
+    if (!in_space) p.z = q.z = r.z = 0;
+    visit(a, b, q - p);
+    visit(b, c, r - q);
+    visit(c, a, p - r);
+  }
+}
+
+double square(const Vec3& d) { return d.x * d.x + d.y * d.y + d.z * d.z; }
+
+/// Without overflow or underflow; not finite if a coordinate is not.
+double length_of(const Vec3& d) {
+  const double reach = std::max({std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
+  if (!(reach > 0) || !std::isfinite(reach)) return reach;
+  const int exponent = std::ilogb(reach);
+  return std::scalbn(std::sqrt(square({std::scalbn(d.x, -exponent), std::scalbn(d.y, -exponent),
+                                       std::scalbn(d.z, -exponent)})),
+                     exponent);
+}
+
+EdgeLengths lengths_of_any_size(const Mesh& mesh, bool in_space) {
+  EdgeLengths out;
+  std::vector<double> lengths;
+  each_edge(mesh, in_space, [&](std::uint32_t u, std::uint32_t v, const Vec3& d) {
+    const double length = length_of(d);
+    if (!(length > 0) || !std::isfinite(length)) return;
+    if (lengths.empty() || length < out.shortest) {
+      out.shortest = length;
+      out.shortest_vertices = {std::min(u, v), std::max(u, v)};
+    }
+    lengths.push_back(length);
+  });
+  if (lengths.empty()) return out;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>((lengths.size() - 1) / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  out.median = *middle;
+  return out;
+}
+
+/// Positive doubles are ordered as their bits: exponent and the digits that follow name a drawer.
+constexpr int kDrawerShift = 49;
+std::size_t drawer(double square) { return std::bit_cast<std::uint64_t>(square) >> kDrawerShift; }
+
+}  // namespace
+
+EdgeLengths edge_lengths(const Mesh& mesh, bool in_space) {
+  // By squares, whose order is that of lengths: counted by drawers first, so that only those of the drawer in
+  // the middle are kept and sorted out.
+  std::vector<std::uint32_t> drawers(drawer(std::numeric_limits<double>::infinity()) + 1, 0);
+  double shortest = std::numeric_limits<double>::infinity();
+  EdgeLengths out;
+  bool moderate = true;
+  std::size_t edges = 0;
+  each_edge(mesh, in_space, [&](std::uint32_t u, std::uint32_t v, const Vec3& d) {
+    const double s = square(d);
+    if (!(s >= kLeastSquare && s <= kGreatestSquare)) {
+      moderate = moderate && d == Vec3{};
+      return;
+    }
+    ++edges;
+    ++drawers[drawer(s)];
+    if (s < shortest) {
+      shortest = s;
+      out.shortest_vertices = {std::min(u, v), std::max(u, v)};
+    }
+  });
+  if (!moderate) return lengths_of_any_size(mesh, in_space);
+  if (edges == 0) return out;
+  std::size_t rank = (edges - 1) / 2, middle = 0;
+  for (; rank >= drawers[middle]; ++middle) rank -= drawers[middle];
+  std::vector<double> squares;
+  squares.reserve(drawers[middle]);
+  each_edge(mesh, in_space, [&](std::uint32_t, std::uint32_t, const Vec3& d) {
+    const double s = square(d);
+    if (drawer(s) == middle) squares.push_back(s);
+  });
+  std::nth_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(rank), squares.end());
+  out.shortest = std::sqrt(shortest);
+  out.median = std::sqrt(squares[rank]);
+  return out;
 }
 
 }  // namespace plumbline::oracle

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "scenarios/mesh.h"
 
@@ -21,6 +23,7 @@ struct ShapeReport {
   std::size_t max_valence =
       0;                    ///< valence: triangles that meet at a vertex (an inner vertex has as many edges)
   double mean_valence = 0;  ///< over the vertices that a triangle uses
+  std::uint32_t worst_triangle = 0;  ///< of the least quality, the first among equals
   double mean_fan_length = 0;  ///< triangles per fan when fans are taken greedily in mesh order: triangles in
                                ///< a row belong to one fan as long as one vertex is common to all of them
 };
@@ -31,5 +34,16 @@ struct ShapeReport {
 /// comparing tangents, which take no more than a division, and only that one is turned into degrees
 /// (exact_atan2): the same bits on every machine.
 ShapeReport shape(const Mesh& mesh);
+
+/// Lengths of edges; rounded. Each edge counts once for every triangle that has it.
+struct EdgeLengths {
+  double shortest = 0;  ///< 0 if there is no edge of two different points
+  double median = 0;    ///< nearest rank from below
+  std::array<std::uint32_t, 2> shortest_vertices{};
+};
+/// Of edges whose ends differ in plan, in plan; `in_space`: that differ, in space. Triangles with a bad
+/// index, and edges with a coordinate (in plan: x or y) that is not finite, are skipped. Of equally short
+/// ones the first in order of triangle.
+EdgeLengths edge_lengths(const Mesh& mesh, bool in_space);
 
 }  // namespace plumbline::oracle

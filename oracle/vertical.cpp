@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -43,12 +44,37 @@ void require_grid(const Terrain& terrain) {
   }
 }
 
+/// One byte a cell: whether all four samples hold data. Empty: they all do.
+std::vector<std::uint8_t> cells_with_data(const Terrain& terrain, std::span<const std::uint8_t> has_data) {
+  std::vector<std::uint8_t> cells;
+  if (has_data.empty()) return cells;
+  if (has_data.size() != terrain.heights_m.size()) {
+    throw InputError(fmt::format("terrain '{}': {} marks of data for {} samples; give one each", terrain.id,
+                                 has_data.size(), terrain.heights_m.size()));
+  }
+  cells.reserve(static_cast<std::size_t>(terrain.columns - 1) * static_cast<std::size_t>(terrain.rows - 1));
+  for (int j = 0; j + 1 < terrain.rows; ++j) {
+    const std::uint8_t* const south = has_data.data() + terrain.index(0, j);
+    const std::uint8_t* const north = south + terrain.columns;
+    for (int i = 0; i + 1 < terrain.columns; ++i) {
+      cells.push_back(south[i] != 0 && south[i + 1] != 0 && north[i] != 0 && north[i + 1] != 0 ? 1 : 0);
+    }
+  }
+  return cells;
+}
+
 }  // namespace
 
 VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain) {
+  return vertical_error_where_data(mesh, terrain, {});
+}
+
+VerticalError vertical_error_where_data(const Mesh& mesh, const Terrain& terrain,
+                                        std::span<const std::uint8_t> has_data) {
   require_grid(terrain);
   const double spacing_m = terrain.spacing_m;
-  detail::Overlay overlay(terrain);
+  const std::vector<std::uint8_t> cells = cells_with_data(terrain, has_data);
+  detail::Overlay overlay(terrain, cells.empty() ? nullptr : cells.data());
   // One triangle is held back, so that the next one's samples can be asked for before they are needed.
   std::optional<detail::GridTriangle> held;
   const auto judge = [&](const detail::GridTriangle& next) {
@@ -90,16 +116,27 @@ VerticalError vertical_error(const Mesh& mesh, const Terrain& terrain) {
   result.rms = std::sqrt(overlay.sums().square_integral() / area);
   result.mean = overlay.sums().absolute_integral() / area;
   result.area_m2 = area * spacing_m * spacing_m;
+  const detail::Peak& sample = overlay.sample_peak();
+  if (sample.value >= 0) {
+    // Evaluated otherwise in thin pieces: within the rounding bound, but a part must not exceed the whole.
+    result.samples_max = std::min(sample.value, certain.value);
+    result.samples_at = {sample.x * spacing_m, sample.y * spacing_m};
+  }
   return result;
 }
 
-double diagonal_ambiguity_m(const Terrain& terrain) {
+double diagonal_ambiguity_m(const Terrain& terrain) { return diagonal_ambiguity_m(terrain, {}); }
+
+double diagonal_ambiguity_m(const Terrain& terrain, std::span<const std::uint8_t> has_data) {
   require_grid(terrain);
+  const std::vector<std::uint8_t> cells = cells_with_data(terrain, has_data);
+  std::size_t cell = 0;
   double widest = 0;
   for (int j = 0; j + 1 < terrain.rows; ++j) {
     const double* const south = terrain.heights_m.data() + terrain.index(0, j);
     const double* const north = terrain.heights_m.data() + terrain.index(0, j + 1);
-    for (int i = 0; i + 1 < terrain.columns; ++i) {
+    for (int i = 0; i + 1 < terrain.columns; ++i, ++cell) {
+      if (!cells.empty() && cells[cell] == 0) continue;
       // As differences along the cell's sides: exact where neighbouring heights are close.
       const double twist = (south[i] - south[i + 1]) + (north[i + 1] - north[i]);
       widest = std::max(widest, 0.5 * std::fabs(twist));

@@ -135,8 +135,18 @@ void Overlay::cross_row(Row& row, const std::array<Edge, 3>& edges, int last_col
   }
 }
 
-Overlay::Overlay(const Terrain& terrain)
-    : terrain_(terrain), columns_(terrain.columns), rows_(terrain.rows) {}
+Overlay::Overlay(const Terrain& terrain, const std::uint8_t* cells)
+    : terrain_(terrain), columns_(terrain.columns), rows_(terrain.rows), cells_(cells) {}
+
+bool Overlay::judged_around(int i, int j) const {
+  if (cells_ == nullptr) return true;
+  for (int row = std::max(j - 1, 0); row <= std::min(j, rows_ - 2); ++row) {
+    for (int column = std::max(i - 1, 0); column <= std::min(i, columns_ - 2); ++column) {
+      if (judged(column, row)) return true;
+    }
+  }
+  return false;
+}
 
 void Overlay::expect(const GridTriangle& triangle) const {
   const GridPoint* south = &triangle[0];
@@ -185,13 +195,20 @@ bool Overlay::judge_one_cell(const GridTriangle& triangle) {
   if (west < 0 || south < 0 || west > columns_ - 2 || south > rows_ - 2) return false;
   const int column = static_cast<int>(west);
   const int row = static_cast<int>(south);
+  if (!judged(column, row)) {
+    for (const GridPoint& p : triangle) {
+      const int i = static_cast<int>(p.x), j = static_cast<int>(p.y);
+      if (judged_around(i, j)) visit_at_sample(p.z - terrain_.z(i, j), p.x, p.y);
+    }
+    return true;
+  }
   std::array<double, 3> error{};
   int corners_seen = 0;  // bit 0: south-west, 1: south-east, 2: north-west, 3: north-east
   for (std::size_t k = 0; k < 3; ++k) {
     const GridPoint& p = triangle[k];
     error[k] = p.z - terrain_.z(static_cast<int>(p.x), static_cast<int>(p.y));
     corners_seen |= 1 << (static_cast<int>(p.x - west) + 2 * static_cast<int>(p.y - south));
-    visit_everywhere(error[k], p.x, p.y);
+    visit_at_sample(error[k], p.x, p.y);
   }
   const bool has_diagonal = (corners_seen & 0b1001) == 0b1001;
   if (has_diagonal) {
@@ -287,16 +304,37 @@ void Overlay::judge_strip(const Strip& strip) {
   if (first > last || !south.meets || !north.meets) {
     return judge_cells(strip, strip.first_cell, strip.last_cell, 0b111);
   }
-  const double most = sums_.add_cells(strip.plane, south.errors, north.errors, first, last - first + 1);
-  if (most >= certain_peak_.value) visit_samples(strip, first, last + 1, most);
+  if (cells_ == nullptr) {
+    judge_whole_cells(strip, first, last);
+  } else {
+    const std::uint8_t* const cells =
+        cells_ + static_cast<std::ptrdiff_t>(strip.origin_y + south.y) * (columns_ - 1) + strip.origin_x;
+    const auto run_end = [&](int from, bool in_run) {
+      return static_cast<int>(std::find_if(cells + from, cells + last + 1,
+                                           [&](std::uint8_t cell) { return (cell != 0) != in_run; }) -
+                              cells);
+    };
+    for (int x = run_end(first, false); x <= last;) {
+      const int end = run_end(x, true);
+      judge_whole_cells(strip, x, end - 1);
+      x = run_end(end, false);
+    }
+  }
   // West of a whole cell, an edge that faces east has all samples inside: only edges that face west can cut.
   judge_cells(strip, strip.first_cell, first - 1, strip.west_edges);
   judge_cells(strip, last + 1, strip.last_cell, strip.east_edges);
 }
 
+void Overlay::judge_whole_cells(const Strip& strip, int first, int last) {
+  const double most =
+      sums_.add_cells(strip.plane, strip.south.errors, strip.north.errors, first, last - first + 1);
+  if (most >= sample_peak_.value) visit_samples(strip, first, last + 1, most);
+}
+
 /// Cells that some edge of the mask may cut.
 void Overlay::judge_cells(const Strip& strip, int first, int last, unsigned edge_mask) {
   for (int x = first; x <= last; ++x) {
+    if (!judged(strip.origin_x + x, strip.origin_y + strip.south.y)) continue;
     const CellErrors errors{strip.south.errors.at(strip.plane, x), strip.south.errors.at(strip.plane, x + 1),
                             strip.north.errors.at(strip.plane, x + 1), strip.north.errors.at(strip.plane, x)};
     judge_half(strip, errors, Half::southeast, x, edge_mask);
@@ -308,6 +346,7 @@ inline void Overlay::judge_half(const Strip& strip, const CellErrors& errors, Ha
                                 unsigned edge_mask) {
   const bool southeast = half == Half::southeast;
   std::array<double, 3> cutting{};
+  std::array<bool, 3> outside{};  // samples of this half; told only where more than one edge cuts it
   int cuts = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     if ((edge_mask >> k & 1u) == 0) continue;
@@ -324,11 +363,22 @@ inline void Overlay::judge_half(const Strip& strip, const CellErrors& errors, Ha
     if (least >= 0) continue;
     // No area inside: what the triangle touches here is the rim of other halves.
     if (std::max(std::max(distance[0], distance[1]), distance[2]) <= 0) return;
+    if (cuts > 0) {
+      for (std::size_t n = 0; n < 3; ++n) outside[n] = outside[n] || cutting[n] < 0 || distance[n] < 0;
+    }
     cutting = distance;
     ++cuts;
   }
   if (cuts == 1) return cut_by_one(strip, errors, half, x, cutting);
-  if (cuts > 1) return clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
+  if (cuts > 1) {
+    const std::array<std::size_t, 3>& sample = southeast ? kSoutheast : kNorthwest;
+    for (std::size_t n = 0; n < 3; ++n) {
+      if (outside[n]) continue;
+      aside_peak_.visit(std::fabs(errors[sample[n]]), strip.origin_x + x + kSampleX[sample[n]],
+                        strip.origin_y + strip.south.y + kSampleY[sample[n]]);
+    }
+    return clip_to_half(strip.triangle, strip.origin_x + x, strip.origin_y + strip.south.y, half);
+  }
   const double middle = southeast ? errors[1] : errors[3];
   sums_.add_triangle(errors[0], middle, errors[2], 1);
   for (const std::size_t k : {std::size_t{0}, std::size_t{2}, southeast ? std::size_t{1} : std::size_t{3}}) {
@@ -369,9 +419,9 @@ inline void Overlay::cut_by_one(const Strip& strip, const CellErrors& errors, Ha
 }
 
 inline void Overlay::visit_sample(const Strip& strip, int x, std::size_t sample, double error) {
-  if (std::fabs(error) < certain_peak_.value) return;
-  visit_everywhere(error, strip.origin_x + x + kSampleX[sample],
-                   strip.origin_y + strip.south.y + kSampleY[sample]);
+  if (std::fabs(error) < sample_peak_.value) return;
+  visit_at_sample(error, strip.origin_x + x + kSampleX[sample],
+                  strip.origin_y + strip.south.y + kSampleY[sample]);
 }
 
 /// A mesh edge crosses the side between two samples of a cell, at this share of the way.
@@ -393,12 +443,13 @@ void Overlay::visit_samples(const Strip& strip, int first, int last, double most
   for (const Row* row : {&strip.south, &strip.north}) {
     const double at_y = strip.origin_y + row->y;
     if (!certain_peak_.admits(most, strip.origin_x + first, at_y) &&
-        !peak_.admits(most, strip.origin_x + first, at_y)) {
+        !peak_.admits(most, strip.origin_x + first, at_y) &&
+        !sample_peak_.admits(most, strip.origin_x + first, at_y)) {
       continue;
     }
     for (int x = first; x <= last; ++x) {
       if (std::fabs(row->errors.at(strip.plane, x)) != most) continue;
-      visit_everywhere(most, strip.origin_x + x, at_y);
+      visit_at_sample(most, strip.origin_x + x, at_y);
       break;
     }
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "oracle/vertical_pieces.h"
@@ -29,18 +30,24 @@ std::vector<GridTriangle> cut_to_grid(const std::array<Vec3, 3>& triangle, const
 /// Visits every piece of (triangle ∩ grid) and gathers sums and peaks. One object judges one mesh.
 class Overlay {
  public:
-  explicit Overlay(const Terrain& terrain);
+  /// `cells`: one byte a cell, rows from the south, 0 where nothing is to be judged; null: judge them all.
+  Overlay(const Terrain& terrain, const std::uint8_t* cells);
 
   /// Requires: counter-clockwise, coordinates at most kFarCells from 0.
   void judge(const GridTriangle& triangle);
   /// Says that a triangle comes next, so that its first samples are near when it is judged. Changes no
   /// figure.
   void expect(const GridTriangle& triangle) const;
-  void finish() { sums_.finish(); }
+  void finish() {
+    sums_.finish();
+    if (aside_peak_.value >= 0) sample_peak_.visit(aside_peak_.value, aside_peak_.x, aside_peak_.y);
+  }
 
   [[nodiscard]] const PieceSums& sums() const { return sums_; }
   [[nodiscard]] const Peak& peak() const { return peak_; }
   [[nodiscard]] const Peak& certain_peak() const { return certain_peak_; }
+  /// Over the samples alone; value −1: none lies under the mesh. After finish().
+  [[nodiscard]] const Peak& sample_peak() const { return sample_peak_; }
 
  private:
   struct Edge;
@@ -56,6 +63,7 @@ class Overlay {
   bool judge_one_cell(const GridTriangle& triangle);
   void judge_rows(const GridTriangle& triangle);
   void judge_strip(const Strip& strip);
+  void judge_whole_cells(const Strip& strip, int first, int last);
   void judge_cells(const Strip& strip, int first, int last, unsigned edge_mask);
   void judge_half(const Strip& strip, const CellErrors& errors, Half half, int x, unsigned edge_mask);
   void cut_by_one(const Strip& strip, const CellErrors& errors, Half half, int x,
@@ -68,8 +76,19 @@ class Overlay {
   // vertical_slivers.cpp: what is left: thin triangles, cells cut by two edges, corners between samples.
   void judge_corners(const GridTriangle& triangle);
   void judge_sliver(const GridTriangle& triangle);
+  void judge_sliver_samples(const GridTriangle& triangle, int row);
   void clip_to_half(const GridTriangle& triangle, int column, int row, Half half);
 
+  [[nodiscard]] bool judged(int column, int row) const {
+    return cells_ == nullptr || cells_[static_cast<std::ptrdiff_t>(row) * (columns_ - 1) + column] != 0;
+  }
+  /// Whether a cell around this sample is judged.
+  [[nodiscard]] bool judged_around(int i, int j) const;
+
+  void visit_at_sample(double error, double x, double y) {
+    visit_everywhere(error, x, y);
+    if (std::fabs(error) >= sample_peak_.value) sample_peak_.visit(std::fabs(error), x, y);
+  }
   void visit_everywhere(double error, double x, double y) {
     const double size = std::fabs(error);
     if (size >= certain_peak_.value) certain_peak_.visit(size, x, y);
@@ -83,7 +102,10 @@ class Overlay {
   const Terrain& terrain_;
   const int columns_, rows_;
   PieceSums sums_;
+  const std::uint8_t* const cells_;
   Peak peak_, certain_peak_;
+  Peak sample_peak_;  ///< never above certain_peak_: what enters here has entered there
+  Peak aside_peak_;   ///< samples whose error is evaluated for this figure alone
 };
 
 }  // namespace plumbline::oracle::detail

@@ -6,7 +6,10 @@
 // shape, so a sliver as steep as one likes gives no height outside its corners' range.
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "oracle/predicates.h"
 #include "oracle/vertical_overlay.h"
 
 namespace plumbline::oracle::detail {
@@ -76,12 +79,25 @@ void clip_to_columns(Piece& piece, double west, double east) {
 void Overlay::judge_corners(const GridTriangle& triangle) {
   for (const GridPoint& p : triangle) {
     if (p.x < 0 || p.y < 0 || p.x > columns_ - 1 || p.y > rows_ - 1) continue;
-    const int i = std::min(static_cast<int>(p.x), columns_ - 2);
-    const int j = std::min(static_cast<int>(p.y), rows_ - 2);
+    int i = std::min(static_cast<int>(p.x), columns_ - 2);
+    int j = std::min(static_cast<int>(p.y), rows_ - 2);
+    if (!judged(i, j)) {  // on a grid line it touches the cells beyond as well
+      const int west = p.x == i && i > 0 ? i - 1 : i, south = p.y == j && j > 0 ? j - 1 : j;
+      if (judged(west, j)) {
+        i = west;
+      } else if (judged(i, south)) {
+        j = south;
+      } else if (judged(west, south)) {
+        i = west;
+        j = south;
+      } else {
+        continue;
+      }
+    }
     const double s = p.x - i;
     const double t = p.y - j;
     if ((s == 0 || s == 1) && (t == 0 || t == 1)) {
-      visit_everywhere(p.z - terrain_.z(i + static_cast<int>(s), j + static_cast<int>(t)), p.x, p.y);
+      visit_at_sample(p.z - terrain_.z(i + static_cast<int>(s), j + static_cast<int>(t)), p.x, p.y);
       continue;
     }
     const double z00 = terrain_.z(i, j), z10 = terrain_.z(i + 1, j);
@@ -115,15 +131,58 @@ void Overlay::judge_sliver(const GridTriangle& triangle) {
                               std::clamp(static_cast<int>(high + kMarginCells), 0, cells - 1)};
   };
   const auto [south, north] = extent(inside, &PieceCorner::y, rows_ - 1);
+  for (int row = south; row <= north + 1; ++row) judge_sliver_samples(triangle, row);
   for (int row = south; row <= north; ++row) {
     Piece strip = inside;
     clip_to_rows(strip, row, row + 1);
     if (strip.size == 0) continue;
     const auto [west, east] = extent(strip, &PieceCorner::x, columns_ - 1);
     for (int column = west; column <= east; ++column) {
+      if (!judged(column, row)) continue;
       clip_to_half(triangle, column, row, Half::southeast);
       clip_to_half(triangle, column, row, Half::northwest);
     }
+  }
+}
+
+/// The samples of one row under the triangle, decided exactly: clipping rounds, and might find a sample on
+/// the edge between two triangles under neither. The height is a mean of where the row's line crosses the
+/// edges.
+void Overlay::judge_sliver_samples(const GridTriangle& triangle, int row) {
+  struct Crossing {
+    double x, z;
+  };
+  std::optional<Crossing> west, east;
+  const auto meet = [&](double x, double z) {
+    if (!west || x < west->x) west = {x, z};
+    if (!east || x > east->x) east = {x, z};
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const GridPoint& p = triangle[k];
+    const GridPoint& q = triangle[(k + 1) % 3];
+    if (p.y == row) meet(p.x, p.z);
+    if ((p.y < row && q.y > row) || (p.y > row && q.y < row)) {
+      const double share = (row - p.y) / (q.y - p.y);
+      meet(p.x + share * (q.x - p.x), p.z + share * (q.z - p.z));
+    }
+  }
+  if (!west) return;
+  constexpr double kMarginCells = 0x1p-24;  // far above the rounding of a crossing
+  const int first = static_cast<int>(std::ceil(std::max(west->x - kMarginCells, 0.0)));
+  const int last = static_cast<int>(std::floor(std::min(east->x + kMarginCells, columns_ - 1.0)));
+  for (int x = first; x <= last; ++x) {
+    const Vec2 at{static_cast<double>(x), static_cast<double>(row)};
+    bool inside = judged_around(x, row);
+    for (std::size_t k = 0; k < 3 && inside; ++k) {
+      const GridPoint& p = triangle[k];
+      const GridPoint& q = triangle[(k + 1) % 3];
+      inside = orientation({p.x, p.y}, {q.x, q.y}, at).value >= 0;
+    }
+    if (!inside) continue;
+    const double width = east->x - west->x;
+    const double share = width > 0 ? std::clamp((x - west->x) / width, 0.0, 1.0) : 0;
+    const double height = west->z + share * (east->z - west->z);
+    aside_peak_.visit(std::fabs(height - terrain_.z(x, row)), at.x, at.y);
   }
 }
 

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "reports/digest.h"
 #include "reports/picture.h"
@@ -17,7 +22,8 @@ constexpr Rgb kViridis[] = {{68, 1, 84},    {72, 24, 106},  {71, 45, 123},  {66,
 
 constexpr Rgb kPaper{255, 255, 255};
 constexpr Rgb kInk{33, 37, 41};
-constexpr double kBarEnd = 2;  ///< the bar ends at this many τ
+constexpr int kMapWidthPx = 640;  ///< small difference maps are enlarged to about this
+constexpr double kBarEnd = 2;     ///< the bar ends at this many τ
 
 Rgb mix(Rgb a, Rgb b, double share) {
   Rgb out{};
@@ -35,36 +41,62 @@ Rgb heat(float displacement_px, double threshold_px) {
   return share > 1 ? kOverBar : viridis(share);
 }
 
-/// The bar, its red end for what is beyond it, ticks each half τ, and τ itself marked through the bar.
-void draw_bar(Picture& picture, int top, double threshold_px) {
+struct BarTick {
+  double share = 0;  ///< of the bar
+  std::string label;
+  bool strong = false;  ///< drawn through the bar
+};
+
+/// A colour bar with its ticks; `beyond`: the end for what the bar does not reach.
+template <class Colour>
+void draw_bar(Picture& picture, int top, Colour colour, std::optional<Rgb> beyond,
+              std::span<const BarTick> ticks) {
   const int scale = text_scale(picture.width);
   const int margin = 8 * scale;
   const int bar_top = top + 4 * scale, bar_bottom = bar_top + 8 * scale;
-  const int red_width = 14 * scale;
-  const int left = margin, right = std::max(left + 1, picture.width - margin - red_width);
+  const int beyond_width = beyond ? 14 * scale : 0;
+  const int left = margin, right = std::max(left + 1, picture.width - margin - beyond_width);
   for (int x = left; x < right; ++x)
-    picture.fill(x, bar_top, x + 1, bar_bottom, viridis(static_cast<double>(x - left) / (right - left)));
-  picture.fill(right, bar_top, right + red_width, bar_bottom, kOverBar);
+    picture.fill(x, bar_top, x + 1, bar_bottom, colour(static_cast<double>(x - left) / (right - left)));
+  if (beyond) picture.fill(right, bar_top, right + beyond_width, bar_bottom, *beyond);
 
   const int text_top = bar_bottom + 4 * scale;
   int free_from = 0;  // labels that would run into their neighbour are left out
-  const auto label = [&](int middle, const std::string& text) {
-    const int width = text_width(text, scale);
-    const int x = std::clamp(middle - width / 2, 0, std::max(0, picture.width - width));
-    if (x < free_from) return;
-    draw_text(picture, x, text_top, text, scale, kInk);
+  for (const BarTick& tick : ticks) {
+    const int middle = left + static_cast<int>(std::lround(tick.share * (right - left)));
+    const int thickness = tick.strong ? std::max(2, scale) : std::max(1, scale / 2);
+    const int from = tick.strong ? bar_top - 3 * scale : bar_bottom;
+    picture.fill(middle - thickness / 2, from, middle - thickness / 2 + thickness, bar_bottom + 3 * scale,
+                 kInk);
+    const int width = text_width(tick.label, scale);
+    const int edge = 2 * scale;
+    const int x = std::clamp(middle - width / 2, edge, std::max(edge, picture.width - width - edge));
+    if (x < free_from) continue;
+    draw_text(picture, x, text_top, tick.label, scale, kInk);
     free_from = x + width + 4 * scale;
-  };
-  for (int tick = 0; tick <= 4; ++tick) {
-    const double share = tick / 4.0;
-    const int x = left + static_cast<int>(std::lround(share * (right - left)));
-    const bool is_threshold = tick == 2;
-    const int thickness = is_threshold ? std::max(2, scale) : std::max(1, scale / 2);
-    const int from = is_threshold ? bar_top - 3 * scale : bar_bottom;
-    picture.fill(x - thickness / 2, from, x - thickness / 2 + thickness, bar_bottom + 3 * scale, kInk);
-    const std::string number = short_number(share * kBarEnd * threshold_px);
-    label(x, is_threshold ? "tau = " + number + " px" : number);
   }
+}
+
+/// Below zero blue, at zero white, above red: ColorBrewer's RdBu (Brewer, 2003), safe for colour-blind eyes.
+Rgb diverging(double share) {
+  constexpr Rgb kBelow[] = {{247, 247, 247}, {146, 197, 222}, {67, 147, 195}, {33, 102, 172}, {5, 48, 97}};
+  constexpr Rgb kAbove[] = {{247, 247, 247}, {244, 165, 130}, {214, 96, 77}, {178, 24, 43}, {103, 0, 31}};
+  const double place = std::clamp(std::fabs(share), 0.0, 1.0) * 4;
+  const auto below = std::min(static_cast<std::size_t>(place), std::size_t{3});
+  const auto& side = share < 0 ? kBelow : kAbove;
+  return mix(side[below], side[below + 1], place - static_cast<double>(below));
+}
+
+/// A ring around (x, y), light between dark, to be seen on any colour.
+void draw_ring(Picture& picture, double x, double y, double radius) {
+  const double width = std::max(1.0, radius / 4);
+  const int reach = static_cast<int>(std::ceil(radius + 2 * width));
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double off = std::fabs(std::sqrt(static_cast<double>(dx * dx + dy * dy)) - radius) / width;
+      const int px = static_cast<int>(x) + dx, py = static_cast<int>(y) + dy;
+      if (off < 1.5) picture.fill(px, py, px + 1, py + 1, off < 0.6 ? kPaper : kInk);
+    }
 }
 
 }  // namespace
@@ -83,7 +115,48 @@ Picture heat_map(const Raster& displacement_px, double threshold_px) {
   for (int y = 0; y < displacement_px.height; ++y)
     for (int x = 0; x < displacement_px.width; ++x)
       out.set(x, y, heat(displacement_px.at(x, y), threshold_px));
-  draw_bar(out, displacement_px.height, threshold_px);
+  std::vector<BarTick> ticks;  // each half τ
+  for (int tick = 0; tick <= 4; ++tick) {
+    const std::string number = short_number(tick / 4.0 * kBarEnd * threshold_px);
+    ticks.push_back({tick / 4.0, tick == 2 ? fmt::format("tau = {} px", number) : number, tick == 2});
+  }
+  draw_bar(out, displacement_px.height, viridis, kOverBar, ticks);
+  return out;
+}
+
+Picture difference_map(const Raster& metres) {
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < metres.values.size(); ++i)
+    if (std::isfinite(metres.values[i]) &&
+        (!worst || std::fabs(metres.values[i]) > std::fabs(metres.values[*worst])))
+      worst = i;
+  const double most = worst ? std::fabs(static_cast<double>(metres.values[*worst])) : 0;
+  const int zoom = std::max(1, kMapWidthPx / std::max(metres.width, metres.height));
+  const int width = metres.width * zoom, height = metres.height * zoom;
+  Picture out(width, height + bar_height_px(width), kPaper);
+  for (int y = 0; y < metres.height; ++y)
+    for (int x = 0; x < metres.width; ++x) {
+      const double value = static_cast<double>(metres.at(x, y));
+      const double share = most > 0 ? value / most : 0;
+      out.fill(x * zoom, y * zoom, (x + 1) * zoom, (y + 1) * zoom,
+               std::isfinite(value) ? diverging(share) : kNotJudged);
+    }
+  if (most > 0) {
+    const auto columns = static_cast<std::size_t>(metres.width);
+    Picture map(width, height, kPaper);  // the ring ends where the map does
+    std::copy_n(out.rgb.begin(), map.rgb.size(), map.rgb.begin());
+    draw_ring(map, (static_cast<double>(*worst % columns) + 0.5) * zoom,
+              (static_cast<double>(*worst / columns) + 0.5) * zoom, std::max(6.0, width / 64.0));
+    std::ranges::copy(map.rgb, out.rgb.begin());
+  }
+  std::vector<BarTick> ticks;
+  for (int tick = 0; tick <= 4; ++tick) {
+    const double value = most * (tick / 2.0 - 1);
+    const std::string number = (value > 0 ? "+" : "") + short_number(value);
+    ticks.push_back({tick / 4.0, tick == 4 ? number + " m" : number, tick == 2});
+  }
+  draw_bar(
+      out, height, [](double share) { return diverging(2 * share - 1); }, std::nullopt, ticks);
   return out;
 }
 

@@ -36,6 +36,12 @@ Picture shaded_picture(const Raster& shade);
 Picture heat_map(const Raster& displacement_px, double threshold_px);
 int bar_height_px(int picture_width);
 
+/// Signed differences in metres as colour: blue below zero, white, red above, evenly from −m to m, the
+/// largest size in the raster, with a colour bar below (height bar_height_px of the picture's width). Where
+/// that is attained first, a ring stands; what is not finite is grey. Small rasters are enlarged by a whole
+/// factor.
+Picture difference_map(const Raster& metres);
+
 /// The colour of `share` of the bar: [0, 1] in viridis.
 Rgb viridis(double share);
 

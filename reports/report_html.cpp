@@ -60,12 +60,21 @@ std::string fill(std::string_view page, const std::map<std::string_view, std::st
 
 }  // namespace
 
+namespace {
+/// Nothing for a picture that was not taken.
+std::string shaded_png(const Raster& shade) {
+  return shade.values.empty() ? std::string() : png_bytes(shaded_picture(shade));
+}
+}  // namespace
+
 std::vector<EncodedFrame> encode(std::span<const verdict::FramePictures> pictures) {
   std::vector<EncodedFrame> out;
   for (const verdict::FramePictures& frame : pictures)
-    out.push_back({frame.run, frame.frame, frame.threshold_px, png_bytes(shaded_picture(frame.shaded)),
-                   png_bytes(heat_map(frame.displacement_px, frame.threshold_px)),
-                   png_bytes(shaded_picture(frame.reference))});
+    out.push_back({frame.run, frame.frame, frame.threshold_px, shaded_png(frame.shaded),
+                   frame.displacement_px.values.empty()
+                       ? std::string()
+                       : png_bytes(heat_map(frame.displacement_px, frame.threshold_px)),
+                   shaded_png(frame.reference)});
   return out;
 }
 

@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <span>
-#include <string_view>
-
+#include "reports/figures_json.h"
 #include "reports/json_text.h"
 #include "reports/report.h"
 #include "reports/selftest_text.h"
@@ -13,57 +10,6 @@ namespace {
 
 using verdict::FrameVerdict;
 using verdict::RunSummary;
-
-/// A finding's witnesses are listed up to here; their number is always given in full.
-constexpr std::size_t kWitnessesListed = 16;
-
-Json xy(Vec2 p) { return Json::array({p.x, p.y}); }
-Json xyz(Vec3 p) { return Json::array({p.x, p.y, p.z}); }
-
-/// A figure that nothing was judged for is null, which no reader can take for a perfect score.
-Json judged(bool any, double value) { return any ? Json(value) : Json(nullptr); }
-
-Json camera_json(const Camera& camera) {
-  return {{"position", xyz(camera.position)},
-          {"forward", xyz(camera.forward)},
-          {"up", xyz(camera.up)},
-          {"fov_y_deg", camera.fov_y_deg},
-          {"viewport", Json::array({camera.width_px, camera.height_px})}};
-}
-
-Json conformity_json(const oracle::ConformityCounts& counts, Subject subject) {
-  if (subject == Subject::mesh) {  // no plan: what was not asked is null, not zero
-    return {{"crack", nullptr},
-            {"t_junction", nullptr},
-            {"fold_over", nullptr},
-            {"degenerate", counts.degenerate},
-            {"hole", nullptr},
-            {"overlap", nullptr},
-            {"outline", nullptr},
-            {"non_manifold", counts.non_manifold},
-            {"duplicate", counts.duplicate},
-            {"non_finite", counts.non_finite},
-            {"bad_index", counts.bad_index},
-            {"unused_vertex", counts.unused_vertex}};
-  }
-  return {{"crack", counts.crack},         {"t_junction", counts.t_junction},
-          {"fold_over", counts.fold_over}, {"degenerate", counts.degenerate},
-          {"hole", counts.hole},           {"overlap", counts.overlap},
-          {"outline", counts.outline},     {"non_manifold", counts.non_manifold},
-          {"duplicate", counts.duplicate}, {"non_finite", counts.non_finite},
-          {"bad_index", counts.bad_index}, {"unused_vertex", counts.unused_vertex}};
-}
-
-Json vertical_json(const oracle::VerticalError& error) {
-  const bool any = error.area_m2 > 0;
-  return {{"max", judged(any, error.max)},
-          {"certain_max", judged(any, error.certain_max)},
-          {"rms", judged(any, error.rms)},
-          {"mean", judged(any, error.mean)},
-          {"at", any ? xy(error.at) : Json(nullptr)},
-          {"certain_at", any ? xy(error.certain_at) : Json(nullptr)},
-          {"area_m2", error.area_m2}};
-}
 
 Json stability_json(const verdict::StabilityFigures& frame) {
   return {{"cut", frame.cut},
@@ -111,10 +57,6 @@ Json economy_json(const RunSummary& run) {
           {"stars_not_judged", economy.slack.not_judged}};
 }
 
-Json distance_json(bool any, oracle::CertifiedDistance distance) {
-  return {{"least", judged(any, distance.least_m)}, {"most", judged(any, distance.most_m)}};
-}
-
 /// O7. Frames of terrains have none of it; their summaries say so, figure by figure.
 void add_space(Json& out, const FrameVerdict& frame) {
   if (frame.subject == Subject::terrain) return;
@@ -145,9 +87,6 @@ void add_space(Json& out, const RunSummary& run) {
 /// What a frame and a trajectory have in common, in CONTRACT's order.
 template <class Judged>
 void add_figures(Json& out, const Judged& frame) {
-  const oracle::PixelFigure& displacement = frame.image.displacement_px;
-  const oracle::PixelFigure& depth = frame.image.depth_rel;
-  const bool seen = displacement.count > 0;
   const bool plan = frame.subject == Subject::terrain;
   out["conformity"] = conformity_json(frame.conformity, frame.subject);
   out["visible_cracks"] = plan ? Json(frame.visible_cracks) : Json(nullptr);
@@ -155,24 +94,9 @@ void add_figures(Json& out, const Judged& frame) {
   out["largest_gap_px"] = judged(plan, frame.largest_gap_px);
   out["nothing_judged"] = frame.nothing_judged;
   out["vertical_m"] = vertical_json(frame.vertical_m);
-  out["displacement_px"] = {{"max", judged(seen, displacement.max)},
-                            {"p999", judged(seen, displacement.p999)},
-                            {"p99", judged(seen, displacement.p99)},
-                            {"rms", judged(seen, displacement.rms)},
-                            {"mean", judged(seen, displacement.mean)},
-                            {"over_threshold", judged(seen, frame.image.over_threshold)},
-                            {"uncovered_px", plan ? Json(frame.image.uncovered_px) : Json(nullptr)},
-                            {"judged_px", displacement.count}};
-  const oracle::PixelFigure& parallax = frame.image.parallax_px;
-  out["parallax_px"] = {{"max", judged(parallax.count > 0, parallax.max)},
-                        {"p999", judged(parallax.count > 0, parallax.p999)},
-                        {"p99", judged(parallax.count > 0, parallax.p99)},
-                        {"rms", judged(parallax.count > 0, parallax.rms)},
-                        {"mean", judged(parallax.count > 0, parallax.mean)},
-                        {"judged_px", parallax.count}};
-  out["depth_rel"] = {{"max", judged(depth.count > 0, depth.max)},
-                      {"p99", judged(depth.count > 0, depth.p99)},
-                      {"judged_px", depth.count}};
+  out["displacement_px"] = displacement_json(frame.image, plan);
+  out["parallax_px"] = parallax_json(frame.image);
+  out["depth_rel"] = depth_json(frame.image);
   out["silhouette_px"] = {{"pixels", frame.image.silhouette_pixels}, {"max", frame.image.silhouette_max_px}};
   out["pop_px"] = {{"max", judged(frame.pop_px.count > 0, frame.pop_px.max)},
                    {"p99", judged(frame.pop_px.count > 0, frame.pop_px.p99)},
@@ -180,67 +104,12 @@ void add_figures(Json& out, const Judged& frame) {
   out["stability"] = stability_json(frame.stability);
   out["economy"] = economy_json(frame);
   add_space(out, frame);
-  out["shape"] = {{"slivers", plan ? Json(frame.shape.slivers) : Json(nullptr)},
-                  {"min_quality", judged(plan, frame.shape.min_quality)},
-                  {"mean_quality", judged(plan, frame.shape.mean_quality)},
-                  {"least_angle_deg", judged(plan, frame.shape.least_angle_deg)},
-                  {"max_valence", plan ? Json(frame.shape.max_valence) : Json(nullptr)},
-                  {"mean_valence", judged(plan, frame.shape.mean_valence)},
-                  {"mean_fan_length", judged(plan, frame.shape.mean_fan_length)}};
+  out["shape"] = shape_json(frame.shape, plan);
   const verdict::CounterFigures& counters = frame.counters;
   out["counters"] = {
       {"visited", counters.visited}, {"evaluated", counters.evaluated}, {"split", counters.split},
       {"merged", counters.merged},   {"entered", counters.entered},     {"left", counters.left},
       {"nodes", counters.nodes},     {"drawn", counters.drawn},         {"tiles", counters.tiles}};
-}
-
-std::string_view severity_name(oracle::Severity severity) {
-  return severity == oracle::Severity::hazard ? "hazard" : "fault";
-}
-
-std::string_view visibility_name(oracle::Visibility visibility) {
-  switch (visibility) {
-    case oracle::Visibility::unknown:
-      return "unknown";
-    case oracle::Visibility::outside:
-      return "outside";
-    case oracle::Visibility::occluded:
-      return "occluded";
-    case oracle::Visibility::visible:
-      return "visible";
-  }
-  return "unknown";
-}
-
-template <class Item, class Show>
-void add_witnesses(Json& out, const char* name, const std::vector<Item>& items, Show show) {
-  if (items.empty()) return;
-  Json listed = Json::array();
-  for (const Item& item : std::span(items).first(std::min(items.size(), kWitnessesListed)))
-    listed.push_back(show(item));
-  out[name] = std::move(listed);
-  if (items.size() > kWitnessesListed) out[std::string(name) + "_count"] = items.size();
-}
-
-Json finding_json(const oracle::Finding& finding) {
-  using oracle::FindingCode;
-  Json out = {{"code", static_cast<int>(finding.code)},
-              {"name", oracle::finding_name(finding.code)},
-              {"kind", finding.kind},
-              {"severity", severity_name(finding.severity)},
-              {"at", xyz(finding.at)},
-              {"visibility", visibility_name(finding.visibility)}};
-  if (finding.code == FindingCode::crack || finding.code == FindingCode::t_junction) {
-    out["gap_m"] = finding.gap_m;
-    out["gap_px"] = finding.gap_px;
-  }
-  if (finding.area_m2 != 0) out["area_m2"] = finding.area_m2;
-  if (finding.distance_m != 0) out["distance_m"] = finding.distance_m;
-  const auto as_is = [](std::uint32_t index) { return Json(index); };
-  add_witnesses(out, "vertices", finding.vertices, as_is);
-  add_witnesses(out, "triangles", finding.triangles, as_is);
-  add_witnesses(out, "loop", finding.loop, xy);
-  return out;
 }
 
 Json frame_json(const FrameVerdict& frame) {

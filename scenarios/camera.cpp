@@ -3,6 +3,7 @@
 
 #include "scenarios/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -57,22 +58,28 @@ Camera make_camera(Vec3 position, Vec3 look_at, double fov_y_deg, int width_px, 
       throw InputError(fmt::format("camera: viewport side {} is not inside [1, 16384] pixels", side));
     }
   }
-  const Vec3 way = look_at - position;
-  const double distance = length(way);
-  if (!(distance > 0) || !std::isfinite(distance)) {
-    throw InputError("camera: position and look_at coincide; move one of them");
-  }
+  Vec3 way = look_at - position;
+  const double longest = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
+  if (!(longest > 0)) throw InputError("camera: position and look_at coincide; move one of them");
+  if (!std::isfinite(longest)) throw InputError("camera: look_at is too far from position; move it nearer");
+  // Squares must neither overflow nor underflow; a power of two changes no digit.
+  if (longest > 0x1p+500) way = way * 0x1p-600;
+  if (longest < 0x1p-450) way = way * 0x1p+600;
   Camera camera;
   camera.position = position;
-  camera.forward = way * (1 / distance);
-  const bool vertical = way.x == 0 && way.y == 0;
+  camera.forward = way * (1 / length(way));
+  const bool vertical = camera.forward.x == 0 && camera.forward.y == 0;
   const Vec3 hint = vertical ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 right = normalized(cross(camera.forward, hint));
+  Vec3 across = cross(camera.forward, hint);
+  if (dot(across, across) < 0x1p-900) across = across * 0x1p+900;
+  const Vec3 right = normalized(across);
   camera.up = normalized(cross(right, camera.forward));
   camera.fov_y_deg = fov_y_deg;
   camera.width_px = width_px;
   camera.height_px = height_px;
   camera.kappa_px = height_px / (2 * exact_tan(fov_y_deg * kRadiansPerDegree / 2));
+  if (!std::isfinite(camera.kappa_px))
+    throw InputError(fmt::format("camera: field of view {} is too narrow; give more degrees", fov_y_deg));
   return camera;
 }
 

@@ -122,7 +122,11 @@ std::vector<std::string> possible_run_ids(const Suite& suite, const std::vector<
 }
 
 std::vector<Expectation> read_expected(const std::filesystem::path& path, const Suite& suite) {
-  const TomlTable file = read_toml(path);
+  return parse_expected(read_toml_text(path), path.string(), suite);
+}
+
+std::vector<Expectation> parse_expected(std::string_view text, const std::string& name, const Suite& suite) {
+  const TomlTable file = parse_toml(text, name);
   file.allow_only({"expected"});
   // An empty list is what is left when everything is mended; no list is a mistake.
   if (!file.has("expected")) file.fail("has no 'expected'; add one, a list of entries");

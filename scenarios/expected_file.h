@@ -23,5 +23,7 @@ std::vector<std::string> possible_run_ids(const Suite& suite, const std::vector<
 /// line for anything else: an unknown key or figure, a run that the suite does not have, an entry given
 /// twice.
 std::vector<Expectation> read_expected(const std::filesystem::path& path, const Suite& suite);
+/// The same from memory; `name` stands for the file in complaints.
+std::vector<Expectation> parse_expected(std::string_view text, const std::string& name, const Suite& suite);
 
 }  // namespace plumbline

@@ -16,6 +16,7 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `positions`
 
+  /// Empty, with the memory kept.
   void clear() {
     positions.clear();
     triangles.clear();

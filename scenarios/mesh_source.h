@@ -26,6 +26,7 @@ struct MeshSource {
   std::vector<Vec3> at;          ///< where copies of it stand, metres; each is an object of its own
   double scale = 1;              ///< metres per unit of the file, applied before `at`
   bool cut_to_manifold = false;  ///< files: weld, and open what is no manifold (mesh_file.h)
+  friend bool operator==(const MeshSource&, const MeshSource&) = default;
 };
 
 /// Objects that stand together in one scene.
@@ -51,6 +52,7 @@ struct MeshGenerator {
   std::string summary;
   Mesh (*make)();
 };
+/// In the order in which they are listed.
 const std::vector<MeshGenerator>& mesh_generators();
 
 }  // namespace plumbline

@@ -14,6 +14,7 @@ double exact_pow(double base, double exponent);
 /// The angle of (x, y) from the positive x axis, in [−π, π].
 double exact_atan2(double y, double x);
 
+/// π and a degree, rounded to double.
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kRadiansPerDegree = kPi / 180;
 

@@ -16,6 +16,7 @@ class Random {
   /// A named stream of the same seed: independent draws for independent purposes.
   Random(std::uint64_t seed, std::string_view stream);
 
+  /// The next 64 bits.
   std::uint64_t bits();
   /// Uniform in [0, 1), a multiple of 2⁻⁵³.
   double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }

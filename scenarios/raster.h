@@ -16,6 +16,7 @@ struct Raster {
   Raster() = default;
   Raster(int w, int h, float fill)
       : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+  /// The value of pixel (x, y). Requires: inside.
   [[nodiscard]] float at(int x, int y) const {
     return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                   static_cast<std::size_t>(x)];

@@ -179,11 +179,16 @@ void RasterReader::Impl::read_transform() {
   // Samples stand in the middle of their pixels.
   frame.south_west.longitude = t[0] + (columns_from_east ? frame.columns - 0.5 : 0.5) * t[1];
   frame.south_west.latitude = t[3] + (rows_from_north ? frame.rows - 0.5 : 0.5) * t[5];
+  frame.rows_from_north = rows_from_north;
+  frame.columns_from_east = columns_from_east;
+  frame.own_origin = {frame.south_west.longitude, frame.south_west.latitude};
+  frame.own_step = {frame.step_x, frame.step_y};
 }
 
 void RasterReader::Impl::read_reference() {
   const OGRSpatialReference* reference = dataset->GetSpatialRef();
   if (reference == nullptr || !frame.georeferenced) return;
+  if (const char* name = reference->GetName(); name != nullptr) frame.crs = one_line(name, 80);
   if (reference->IsGeocentric())
     refuse("is in geocentric coordinates; give a map projection or longitudes, latitudes");
   if (reference->IsGeographic()) {
@@ -191,6 +196,7 @@ void RasterReader::Impl::read_reference() {
     double radians = reference->GetAngularUnits();
     // WKT writes the degree with 15 digits, or 17: one degree for all.
     if (std::fabs(radians / kRadiansPerDegree - 1) < 1e-9) radians = kRadiansPerDegree;
+    frame.own_unit = radians;
     frame.step_x *= radians;
     frame.step_y *= radians;
     frame.south_west.longitude *= radians;
@@ -206,6 +212,7 @@ void RasterReader::Impl::read_reference() {
   const double metres = reference->GetLinearUnits();
   if (!(metres > 0) || !std::isfinite(metres))
     refuse("has a CRS without a linear unit; mend its georeference");
+  frame.own_unit = metres;
   frame.step_x *= metres;
   frame.step_y *= metres;
 }
@@ -245,6 +252,8 @@ void RasterReader::Impl::read_values() {
   if (!(unit_m > 0) || !std::isfinite(unit_m)) {
     refuse(fmt::format("has heights in '{}'; give metres or feet", one_line(unit, 40)));
   }
+  frame.height_unit = one_line(unit, 40);
+  frame.height_unit_m = unit_m;
 }
 
 RasterReader::RasterReader(const std::string& terrain_id, const std::filesystem::path& file)

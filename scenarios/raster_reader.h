@@ -8,6 +8,7 @@
 
 #include "scenarios/height_grid.h"
 #include "scenarios/local_frame.h"
+#include "scenarios/vec.h"
 
 namespace plumbline {
 
@@ -19,6 +20,16 @@ struct RasterFrame {
   double step_x = 1, step_y = 1;
   Geographic south_west;  ///< geographic: the sample (0, 0)
   double semi_major_m = 0, inverse_flattening = 0;
+  bool rows_from_north = true;     ///< the file's first row is the northmost
+  bool columns_from_east = false;  ///< its first column is the eastmost
+  /// Sample (0, 0) and the steps again, as the file has them: in the CRS's own unit, which is `own_unit`
+  /// metres (geographic: radians).
+  Vec2 own_origin;
+  Vec2 own_step{1, 1};
+  double own_unit = 1;
+  std::string crs;          ///< its name; empty: none
+  std::string height_unit;  ///< as the file names it; empty: not said, taken as metres
+  double height_unit_m = 1;
 };
 
 /// Band 1 of a raster that GDAL opens. GDAL's own messages never reach the terminal: they become part of the

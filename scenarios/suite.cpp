@@ -144,17 +144,7 @@ void refuse_idle(const Suite& suite, const TomlTable& file) {
   }
 }
 
-}  // namespace
-
-std::string run_id(const std::string& subject, const std::string& trajectory, const std::string& method,
-                   double threshold_px) {
-  std::string name = method;
-  std::replace(name.begin(), name.end(), ':', '-');
-  return fmt::format("{}.{}.{}.{}", subject, trajectory, name, threshold_px);
-}
-
-Suite load_suite(const std::filesystem::path& path) {
-  const TomlTable file = read_toml(path);
+Suite read_suite(const TomlTable& file, const std::filesystem::path& path) {
   file.allow_only({"suite", "terrain", "mesh", "trajectory", "method", "gate"});
   Suite suite;
   suite.path = path;
@@ -232,6 +222,21 @@ Suite load_suite(const std::filesystem::path& path) {
       suite.expected = read_expected(path.parent_path() / expected->text(), suite);
   }
   return suite;
+}
+
+}  // namespace
+
+std::string run_id(const std::string& subject, const std::string& trajectory, const std::string& method,
+                   double threshold_px) {
+  std::string name = method;
+  std::replace(name.begin(), name.end(), ':', '-');
+  return fmt::format("{}.{}.{}.{}", subject, trajectory, name, threshold_px);
+}
+
+Suite load_suite(const std::filesystem::path& path) { return read_suite(read_toml(path), path); }
+
+Suite parse_suite(std::string_view text, const std::filesystem::path& path) {
+  return read_suite(parse_toml(text, path.string()), path);
 }
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct MethodSpec {
   Options options;
   std::vector<std::string> subjects{};      ///< terrains and meshes it flies over; empty: all that it takes
   std::vector<std::string> trajectories{};  ///< flights it takes part in; empty: all
+  friend bool operator==(const MethodSpec&, const MethodSpec&) = default;
 };
 
 /// One limit of `[gate]`: the figure's path in a run's summary ("crack", "displacement_px.p99") against a
@@ -36,6 +38,7 @@ struct GateSpec {
   double bound = 0;
   bool times_tau = false;  ///< bound is a multiple of the run's threshold
   std::string text;        ///< as written, for reports: "displacement_px.p99 <= 1 tau"
+  friend bool operator==(const GateSpec&, const GateSpec&) = default;
 };
 
 /// One entry of an expectation file (expected_file.h): what a figure is known to be, whatever the gates ask.
@@ -43,8 +46,10 @@ struct Expectation {
   std::string run;  ///< a run's id as results name it; '*' stands for any text
   GateSpec limit;   ///< its `method` is empty: the run says it
   std::string why;  ///< the reason, for reports: "M4.S1: steep ground"
+  friend bool operator==(const Expectation&, const Expectation&) = default;
 };
 
+/// A suite file, read and checked.
 struct Suite {
   std::string name;
   std::filesystem::path path;  ///< where it was read from; not part of any result
@@ -60,6 +65,7 @@ struct Suite {
   std::vector<MethodSpec> methods;
   std::vector<GateSpec> gates;
   std::vector<Expectation> expected;  ///< each replaces the gates on its figure for its runs
+  friend bool operator==(const Suite&, const Suite&) = default;
 };
 
 /// What a run is called in every result: "crags.orbit.block_bintree-repaired.8". It names folders, so it
@@ -71,5 +77,7 @@ std::string run_id(const std::string& subject, const std::string& trajectory, co
 /// known key for an unknown key, a wrong type, a duplicate id, a threshold that is not positive and finite,
 /// an empty list, and for whatever read_expected refuses in the file that `[gate] expected` names.
 Suite load_suite(const std::filesystem::path& path);
+/// The same from memory; `path` stands for the file in complaints, and paths inside are relative to it.
+Suite parse_suite(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace plumbline

@@ -29,6 +29,7 @@ struct Terrain {
   /// Road polylines: corners in plan, metres; on the ground. Only methods on TINs look at them.
   std::vector<std::vector<Vec2>> roads{};
 
+  /// Where sample (i, j) stands in heights_m; its height, and its place, metres.
   [[nodiscard]] std::size_t index(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i);
   }

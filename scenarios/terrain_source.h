@@ -53,6 +53,7 @@ struct TerrainSource {
   FitRule fit = FitRule::resample;
   std::filesystem::path constraints;  ///< file of road polylines (roads.h); empty: none
   bool generated_roads = false;       ///< instead: a network of the terrain's seed
+  friend bool operator==(const TerrainSource&, const TerrainSource&) = default;
 };
 
 /// Reads or generates a terrain; the same bytes on every machine.
@@ -90,6 +91,7 @@ struct GeneratorDescription {
   std::string name;
   std::string summary;
 };
+/// In the order in which they are listed.
 const std::vector<GeneratorDescription>& terrain_generators();
 
 }  // namespace plumbline

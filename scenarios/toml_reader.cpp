@@ -18,7 +18,87 @@ namespace plumbline {
 namespace {
 
 constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{64} << 20;
+constexpr std::size_t kDeepestNesting = 128;  // toml++ bounds brackets, not the parts of a dotted key
 constexpr std::int64_t kLargestExactInteger = std::int64_t{1} << 53;  // doubles hold all integers up to here
+
+/// How deep tables and arrays nest where the text is TOML; behind its first mistake it may be anything. Dots
+/// of a key and brackets count, those in strings and comments do not.
+class NestingScanner {
+ public:
+  NestingScanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  void refuse_deep() {
+    bool line_begins = true;  // nothing but blanks on the line so far
+    while (at_ < text_.size()) {
+      const char c = text_[at_++];
+      if (c == '\n') {
+        ++line_;
+        dots_ = 0;
+        if (open_.empty()) header_line_ = false;
+        line_begins = true;
+        continue;
+      }
+      if (c == ' ' || c == '\t') continue;
+      if (c == '#') {
+        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+      } else if (c == '"' || c == '\'') {
+        skip_string(c);
+      } else if (c == '.') {
+        ++(header_line_ ? header_ : dots_);
+      } else if (c == ',') {
+        dots_ = 0;
+      } else if (c == '[' || c == '{') {
+        if (line_begins && open_.empty()) {
+          header_line_ = true;
+          header_ = 0;
+        }
+        open_.push_back(dots_);
+        below_ += dots_ + 1;
+        dots_ = 0;
+      } else if ((c == ']' || c == '}') && !open_.empty()) {
+        dots_ = open_.back();
+        below_ -= dots_ + 1;
+        open_.pop_back();
+      }
+      line_begins = false;
+      if (header_ + below_ + dots_ > kDeepestNesting)
+        throw InputError(fmt::format("{}:{}: nests tables and arrays deeper than {}; write it flatter",
+                                     one_line(file_), line_, kDeepestNesting));
+    }
+  }
+
+ private:
+  /// Behind the closing quotes, or at the end of a line that does not close them.
+  void skip_string(char quote) {
+    const auto quotes = [&] {
+      std::size_t n = 0;
+      while (at_ + n < text_.size() && text_[at_ + n] == quote) ++n;
+      return n;
+    };
+    const bool many_lines = quotes() >= 2;
+    if (many_lines) at_ += 2;
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '\n' && !many_lines) return;
+      if (c == '\n') ++line_;
+      if (c == quote && !many_lines) {
+        ++at_;
+        return;
+      }
+      if (c == quote && quotes() >= 3) {  // two more may belong to the string
+        at_ += std::min<std::size_t>(quotes(), 5);
+        return;
+      }
+      at_ += c == '\\' && quote == '"' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n' ? 2 : 1;
+    }
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0, line_ = 1, dots_ = 0, header_ = 0, below_ = 0;
+  std::vector<std::size_t> open_;  // by bracket: the dots of the key before it
+  bool header_line_ = false;
+};
 
 }  // namespace
 
@@ -224,6 +304,7 @@ std::int64_t TomlTable::integer_or(std::string_view key, std::int64_t least, std
 }
 
 TomlTable parse_toml(std::string_view text, const std::string& file) {
+  NestingScanner(text, file).refuse_deep();
   const TomlBuilder builder(one_line(file));
   try {
     return builder.table(toml::parse(text, file), "the top level", "");
@@ -233,7 +314,7 @@ TomlTable parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
-TomlTable read_toml(const std::filesystem::path& path) {
+std::string read_toml_text(const std::filesystem::path& path) {
   const std::string name = one_line(path.string());
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -251,7 +332,11 @@ TomlTable read_toml(const std::filesystem::path& path) {
   if (!stream.read(text.data(), static_cast<std::streamsize>(size))) {
     throw InputError(fmt::format("{}: cannot be read; check its permissions", name));
   }
-  return parse_toml(text, path.string());
+  return text;
+}
+
+TomlTable read_toml(const std::filesystem::path& path) {
+  return parse_toml(read_toml_text(path), path.string());
 }
 
 }  // namespace plumbline

@@ -104,6 +104,9 @@ class TomlTable {
 /// Parses `text`; `file` is the name used in complaints.
 TomlTable parse_toml(std::string_view text, const std::string& file);
 
+/// The bytes of a file of at most 64 MiB. Throws InputError if it cannot be read.
+std::string read_toml_text(const std::filesystem::path& path);
+
 /// Reads and parses a file of at most 64 MiB. Throws InputError if it cannot be read or is not TOML 1.0.
 TomlTable read_toml(const std::filesystem::path& path);
 

@@ -11,14 +11,17 @@
 
 namespace plumbline {
 
+/// Where the camera stands and what it looks at, metres in the local frame.
 struct CameraPose {
   Vec3 position;
   Vec3 look_at;
+  friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
 /// What is flown over, or around, and judged.
 enum class Subject { terrain, mesh };
 
+/// The longest flight that a suite may ask for.
 inline constexpr int kMostFrames = 100'000;
 
 /// A scripted flight. Lengths left at 0 take a default from L, the lesser side of the terrain's extent, so
@@ -43,6 +46,7 @@ struct TrajectorySpec {
   int hold_frames = 0;     ///< teleport, two_ways: frames that a pose is held (4; 3)
   std::uint64_t seed = 1;  ///< teleport, hover
   std::vector<CameraPose> poses;
+  friend bool operator==(const TrajectorySpec&, const TrajectorySpec&) = default;
 };
 
 /// The cameras of a flight over a terrain, one a frame; the same bits on every machine. Throws InputError for
@@ -61,11 +65,13 @@ void check_script(const TrajectorySpec& spec);
 std::vector<Camera> cameras_at(const TrajectorySpec& spec, const std::vector<CameraPose>& poses,
                                double fov_y_deg, int width_px, int height_px);
 
+/// A kind of flight, as a suite names it.
 struct TrajectoryKind {
   std::string name;
   std::string summary;
   std::vector<std::string> keys;  ///< of a suite file that apply to it, besides id and kind
 };
+/// In the order in which they are listed: over terrains, and around meshes.
 const std::vector<TrajectoryKind>& trajectory_kinds();
 const std::vector<TrajectoryKind>& trajectory_kinds_around_mesh();
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <system_error>
 #include <vector>
 
@@ -23,6 +24,36 @@ namespace {
 }
 
 }  // namespace
+
+std::string read_whole_file(const std::filesystem::path& path, std::string_view what) {
+  const std::string name = one_line(path.string());
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status))
+    throw InputError(fmt::format("{}: is a folder, not {}", name, what));
+  // Some devices never end.
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    throw InputError(fmt::format("{}: is a device, not {}", name, what));
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) throw InputError(fmt::format("cannot read {}: no such file, or no permission", name));
+  std::string bytes;
+  if (std::filesystem::is_regular_file(status)) {
+    const auto size = std::filesystem::file_size(path, error);
+    if (!error) bytes.resize(static_cast<std::size_t>(size));
+  }
+  std::size_t have = std::fread(bytes.data(), 1, bytes.size(), file.get());
+  // A pipe states no size, and a file may have grown.
+  for (std::size_t step = std::size_t{1} << 16U;; step *= 2) {
+    bytes.resize(have + step);
+    const std::size_t more = std::fread(bytes.data() + have, 1, step, file.get());
+    have += more;
+    if (more == 0) break;
+  }
+  if (std::ferror(file.get()) != 0)
+    throw InputError(fmt::format("cannot read {}: {}", name, std::strerror(errno)));
+  bytes.resize(have);
+  return bytes;
+}
 
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code error;

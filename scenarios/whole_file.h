@@ -3,9 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace plumbline {
+
+/// All bytes of a file, or of a pipe. Throws InputError if it is a folder or a device ("…, not a mesh";
+/// `what` says what was hoped for), cannot be opened or read.
+std::string read_whole_file(const std::filesystem::path& path, std::string_view what);
 
 /// Writes a file whole or not at all: the bytes go to a temporary name beside it, which then takes its place.
 /// Missing folders are made. Throws InputError ("cannot write …") and leaves nothing behind if that fails.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scenarios/toml_reader.h"
 #include "scenarios/whole_file.h"
 
 namespace plumbline::properties {
@@ -44,6 +45,14 @@ std::string difference_of(const LawOutcome& got, const LawOutcome& stored) {
 }  // namespace
 
 void write_case(const std::filesystem::path& path, const Case& c) { write_whole_file(path, case_text(c)); }
+
+Case parse_case(std::string_view text, const std::string& name) {
+  return parse_case(
+      text, name,
+      {[](const std::string& id) { find_law(id); }, [](const std::string& id) { find_method(id); }});
+}
+
+Case load_case(const std::filesystem::path& path) { return parse_case(read_toml_text(path), path.string()); }
 
 ReplayResult replay(const Case& c) {
   ReplayResult result;

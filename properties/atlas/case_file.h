@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 /// atlas is a folder of them.
 namespace plumbline::properties {
 
+/// A case file: the input, and what the law is to say of it.
 struct Case {
   std::string note;  ///< what the case shows, for readers; may be empty
   std::string law;
@@ -35,7 +37,14 @@ void write_case(const std::filesystem::path& path, const Case& c);
 Case load_case(const std::filesystem::path& path);
 /// The same from memory; `name` stands for the file in complaints.
 Case parse_case(std::string_view text, const std::string& name);
+/// Which laws and methods a case may name: throws InputError for any other.
+struct CaseNames {
+  std::function<void(const std::string&id)> law, method;
+};
+/// The same with other names than the registries'.
+Case parse_case(std::string_view text, const std::string& name, const CaseNames& names);
 
+/// What a case does when it is run again.
 struct ReplayResult {
   LawOutcome outcome;
   bool confirmed = false;  ///< the outcome is the stored one, bit for bit

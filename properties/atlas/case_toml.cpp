@@ -3,6 +3,7 @@
 
 // The text form of a case file: writing and strict reading.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -46,6 +47,14 @@ std::string toml_text(std::string_view text) {
     }
   }
   return result + "\"";
+}
+
+/// A key as TOML takes it: in quotes unless it is a bare one.
+std::string toml_key(const std::string& key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return bare ? key : toml_text(key);
 }
 
 std::string point(Vec3 p) { return fmt::format("[{}, {}, {}]", number(p.x), number(p.y), number(p.z)); }
@@ -137,7 +146,7 @@ LawOutcome read_expected(const TomlTable& table) {
   return expected;
 }
 
-Case read_case(const TomlTable& file) {
+Case read_case(const TomlTable& file, const CaseNames& names) {
   file.allow_only({"schema", "note", "law", "method", "threshold_px", "fov_y_deg", "viewport", "options",
                    "terrain", "pose", "expected"});
   if (file.at("schema").text() != kSchema) {
@@ -153,8 +162,8 @@ Case read_case(const TomlTable& file) {
     }
     return value.text();
   };
-  c.law = known(file.at("law"), [](const std::string& id) { find_law(id); });
-  c.input.method = known(file.at("method"), [](const std::string& id) { find_method(id); });
+  c.law = known(file.at("law"), names.law);
+  c.input.method = known(file.at("method"), names.method);
   c.input.threshold_px = file.at("threshold_px").positive();
   c.input.fov_y_deg = file.at("fov_y_deg").positive();
   const TomlValue& viewport = file.at("viewport");
@@ -190,7 +199,8 @@ std::string case_text(const Case& c) {
                       number(input.fov_y_deg), input.width_px, input.height_px);
   if (!input.options.empty()) {
     text += "\n[options]\n";
-    for (const auto& [name, value] : input.options) text += fmt::format("{} = {}\n", name, option(value));
+    for (const auto& [name, value] : input.options)
+      text += fmt::format("{} = {}\n", toml_key(name), option(value));
   }
   text += "\n[terrain]\n";
   if (c.generator) {
@@ -226,8 +236,8 @@ std::string case_text(const Case& c) {
   return text;
 }
 
-Case parse_case(std::string_view text, const std::string& name) { return read_case(parse_toml(text, name)); }
-
-Case load_case(const std::filesystem::path& path) { return read_case(read_toml(path)); }
+Case parse_case(std::string_view text, const std::string& name, const CaseNames& names) {
+  return read_case(parse_toml(text, name), names);
+}
 
 }  // namespace plumbline::properties

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "properties/verdict/check_verdict.h"
-#include "scenarios/terrain_source.h"
+#include "scenarios/dem.h"
 
 namespace plumbline {
 
@@ -24,8 +24,8 @@ struct CheckRequest {
   double unit_m = 1;  ///< metres per unit of the files (glTF: always metres)
 
   std::filesystem::path terrain;  ///< DEM; empty: none
-  std::string placing = "guess";  ///< how meshes lie over it: see scenarios/dem.h
-  HolePolicy holes = HolePolicy::crop;
+  std::string placing = "guess";  ///< how meshes lie over it: one of placing_names()
+  DemHoles holes = DemHoles::leave_out;
   std::filesystem::path reference;   ///< another mesh; empty: none
   std::optional<double> declared_m;  ///< the maker's bound
 
@@ -47,6 +47,7 @@ struct CheckRequest {
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
+/// What is found, and what to show of it.
 struct CheckOutcome {
   verdict::CheckVerdict verdict;
   verdict::CheckPictures pictures;

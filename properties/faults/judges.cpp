@@ -51,6 +51,19 @@ Judges real_judges() {
   judges.soundness = oracle::check_soundness;
   judges.intersections = oracle::self_intersections;
   judges.likeness = oracle::compare_in_space;
+  judges.border = [](const Mesh& mesh) {
+    return oracle::border_of(mesh, oracle::take_walls_off(mesh), std::span<const Vec3>{});
+  };
+  judges.seam = [](const oracle::Border& a, const oracle::Border& b) {
+    return oracle::compare_borders(a, b);
+  };
+  judges.slit = oracle::find_slit;
+  judges.tile = [](const QuantizedMesh& tile, const TileBounds& bounds) {
+    return oracle::check_tile(tile, bounds);
+  };
+  judges.placement = [](std::span<const Vec3> vertices, const Terrain& terrain) {
+    return oracle::recognise_misplacement(vertices, terrain);
+  };
   return judges;
 }
 

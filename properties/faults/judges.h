@@ -14,8 +14,11 @@
 #include "oracle/economy.h"
 #include "oracle/image.h"
 #include "oracle/likeness.h"
+#include "oracle/placement.h"
+#include "oracle/seams.h"
 #include "oracle/shape.h"
 #include "oracle/stability.h"
+#include "oracle/tile_conformance.h"
 #include "oracle/vertical.h"
 #include "scenarios/random.h"
 
@@ -58,6 +61,13 @@ struct Judges {
   std::function<std::optional<std::vector<std::array<std::uint32_t, 2>>>(const Mesh&)> intersections;
   std::function<std::optional<oracle::Likeness>(const Mesh& mesh, const Mesh& reference, double within_m)>
       likeness;
+  /// A mesh's border, its skirts told by its walls.
+  std::function<oracle::Border(const Mesh&)> border;
+  std::function<std::optional<oracle::Seam>(const oracle::Border&, const oracle::Border&)> seam;
+  std::function<std::optional<oracle::Slit>(const oracle::Border&, const oracle::Border&, double within)>
+      slit;
+  std::function<std::vector<oracle::TileFinding>(const QuantizedMesh&, const TileBounds&)> tile;
+  std::function<std::optional<oracle::Misplacement>(std::span<const Vec3>, const Terrain&)> placement;
 };
 
 /// This build's oracles.

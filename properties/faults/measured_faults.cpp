@@ -18,7 +18,8 @@ Tally& Tally::operator+=(const Tally& other) {
 const std::vector<MeasuredFault>& measured_faults() {
   static const std::vector<MeasuredFault> list = [] {
     std::vector<MeasuredFault> all;
-    for (auto& part : {height_faults(), picture_faults(), flight_faults(), solid_faults()})
+    for (auto& part :
+         {height_faults(), picture_faults(), flight_faults(), solid_faults(), tile_faults(), placed_faults()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -43,6 +43,8 @@ std::vector<MeasuredFault> height_faults();   ///< O2
 std::vector<MeasuredFault> picture_faults();  ///< O3, O4
 std::vector<MeasuredFault> flight_faults();   ///< O5
 std::vector<MeasuredFault> solid_faults();    ///< O6, O7
+std::vector<MeasuredFault> tile_faults();     ///< terrain tiles against their format
+std::vector<MeasuredFault> placed_faults();   ///< meshes that lie wrongly over a terrain
 
 /// The tally of a trial that planted one fault (or its sound twin). `reported`: the oracle said something;
 /// `size`, `place`: it is what was planted, where it was planted; `elsewhere`: it reported besides.

@@ -17,6 +17,7 @@
 /// The hunt for counterexamples: random cases, every law, and the smallest that breaks it.
 namespace plumbline::properties {
 
+/// How far a hunt has come.
 struct FuzzProgress {
   std::string method;
   std::uint64_t cases = 0;       ///< of this method
@@ -24,6 +25,7 @@ struct FuzzProgress {
   double seconds = 0;            ///< since the start
 };
 
+/// What to hunt for, and for how long.
 struct FuzzOptions {
   std::string method;       ///< full id; empty: every registered method and variant
   std::string law;          ///< empty: all that apply
@@ -58,6 +60,7 @@ struct LawTally {
   [[nodiscard]] std::uint64_t judged() const { return held + violated; }
 };
 
+/// What a hunt found.
 struct FuzzReport {
   std::uint64_t seed = 0;
   std::map<std::string, std::uint64_t> cases;  ///< tried, by method

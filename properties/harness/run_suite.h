@@ -14,6 +14,7 @@
 
 namespace plumbline {
 
+/// Which methods of the suite to fly, and how.
 struct RunOptions {
   int jobs = 0;                                      ///< 0: as many as the machine has cores
   std::vector<std::string> methods;                  ///< keep only these of the suite (full ids); empty: all
@@ -25,6 +26,7 @@ struct RunOptions {
   const std::atomic<bool>* cancelled = nullptr;  ///< polled between frames
 };
 
+/// What a flown suite gives: for results.json, for timing.json, for images/.
 struct SuiteOutcome {
   verdict::SuiteVerdict verdict;
   verdict::SuiteTiming timing;

@@ -13,18 +13,6 @@
 
 namespace plumbline::properties {
 
-std::string_view outcome_name(LawOutcome::Kind kind) {
-  switch (kind) {
-    case LawOutcome::Kind::held:
-      return "held";
-    case LawOutcome::Kind::vacuous:
-      return "vacuous";
-    case LawOutcome::Kind::violated:
-      return "violated";
-  }
-  return "unknown";
-}
-
 const std::vector<Law>& all_laws() {
   static const std::vector<Law> laws{
       law_conforming(),

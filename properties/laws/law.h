@@ -49,7 +49,18 @@ struct LawOutcome {
   };
   std::vector<Part> parts;
 };
-std::string_view outcome_name(LawOutcome::Kind kind);
+/// As the enumerator is spelled.
+constexpr std::string_view outcome_name(LawOutcome::Kind kind) {
+  switch (kind) {
+    case LawOutcome::Kind::held:
+      return "held";
+    case LawOutcome::Kind::vacuous:
+      return "vacuous";
+    case LawOutcome::Kind::violated:
+      return "violated";
+  }
+  return "unknown";
+}
 
 /// A law: what must hold for every terrain, camera and threshold, for the methods that promise it.
 struct Law {

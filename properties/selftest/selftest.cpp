@@ -15,6 +15,7 @@
 #include "oracle/soundness.h"
 #include "properties/faults/faults.h"
 #include "properties/faults/measured_faults.h"
+#include "properties/faults/seam_faults.h"
 #include "properties/selftest/subjects.h"
 
 namespace plumbline::selftest {
@@ -24,14 +25,34 @@ using faults::Judges;
 using faults::Tally;
 
 constexpr auto kConformity = "O1 conformity";
+constexpr auto kSeams = "O1 between meshes";
+/// Of the kinds between meshes each subject gets every so many in a round; the rest go to other subjects.
+constexpr std::size_t kSeamsInTurn = 3;
 /// Clean meshes that one task judges.
 constexpr std::size_t kCleanBatch = 64;
 
-/// All kinds planted one after the other into one mesh of one subject.
-std::vector<Tally> plant_all(const Subject& subject, std::size_t round, std::uint64_t seed,
-                             const Judges& judges) {
+/// Faults between the halves of a mesh.
+void plant_seams(const std::string& subject, std::size_t turn, std::size_t round, std::uint64_t seed,
+                 const Judges& judges, const faults::Surface& surface, std::vector<Tally>& tallies) {
+  constexpr int kDraws = 8;
+  const auto& kinds = faults::seam_faults();
+  Random knife(seed, fmt::format("{} in two, round {}", subject, round));
+  std::optional<faults::Halves> halves;
+  for (int draw = 0; draw < kDraws && !halves; ++draw) halves = faults::cut_in_two(surface, knife);
+  if (!halves) return;
+  for (std::size_t k = (turn + round) % kSeamsInTurn; k < kinds.size(); k += kSeamsInTurn) {
+    Random random(seed, fmt::format("{} into {}, round {}", kinds[k].name, subject, round));
+    std::optional<Tally> tally;
+    for (int draw = 0; draw < kDraws && !tally; ++draw) tally = kinds[k].trial(judges, *halves, random);
+    if (tally) tallies[faults::fault_kinds().size() + k] = *tally;
+  }
+}
+
+/// All kinds planted one after the other into one mesh of one subject; then those between meshes.
+std::vector<Tally> plant_all(const Subject& subject, std::size_t number, std::size_t round,
+                             std::uint64_t seed, const Judges& judges) {
   const auto& kinds = faults::fault_kinds();
-  std::vector<Tally> tallies(kinds.size());
+  std::vector<Tally> tallies(kinds.size() + faults::seam_faults().size());
   Random maker(seed, fmt::format("{}, round {}", subject.name, round));
   const std::optional<faults::Surface> surface = subject.make(maker);
   if (!surface) return tallies;
@@ -42,6 +63,7 @@ std::vector<Tally> plant_all(const Subject& subject, std::size_t round, std::uin
     const faults::Score score = faults::score(*fault, judges.conformity(fault->mesh, fault->domain));
     tallies[k] = {1, score.planted, score.found, score.misplaced, score.false_alarms};
   }
+  plant_seams(subject.name, number, round, seed, judges, *surface, tallies);
   return tallies;
 }
 
@@ -62,6 +84,8 @@ class Selftest {
     score_.seed = request.seed;
     for (const faults::FaultKind& kind : faults::fault_kinds())
       score_.kinds.push_back(entry(kConformity, kind.name, kind.what, kind.sound));
+    for (const faults::SeamFault& fault : faults::seam_faults())
+      score_.kinds.push_back(entry(kSeams, fault.name, fault.what, fault.sound));
     for (const faults::MeasuredFault& fault : faults::measured_faults())
       score_.kinds.push_back(entry(fault.oracle, fault.name, fault.what, fault.sound));
     for (const Subject& subject : fault_subjects()) score_.makers.push_back({subject.name, 0});
@@ -113,7 +137,7 @@ class Selftest {
     tbb::parallel_for(std::size_t{0}, subjects.size() + measured.size(), [&](std::size_t task) {
       if (stopped()) return;
       if (task < subjects.size()) {
-        planted[task] = plant_all(subjects[task], round, request_.seed, judges_);
+        planted[task] = plant_all(subjects[task], task, round, request_.seed, judges_);
       } else {
         const std::size_t k = task - subjects.size();
         trials[k] = measure(measured[k], round, request_.seed, judges_);
@@ -125,7 +149,8 @@ class Selftest {
         score_.makers[s].faults += planted[s][k].faults;
       }
     }
-    for (std::size_t k = 0; k < trials.size(); ++k) add(faults::fault_kinds().size() + k, trials[k]);
+    const std::size_t first = faults::fault_kinds().size() + faults::seam_faults().size();
+    for (std::size_t k = 0; k < trials.size(); ++k) add(first + k, trials[k]);
     progress(score_.planted());
   }
 

@@ -117,7 +117,7 @@ const std::vector<Subject>& fault_subjects() {
            return s;
          }},
     };
-    for (const MethodDescription& method : registered_methods()) {
+    for (const MethodDescription& method : built_in_methods()) {
       for (const VariantDescription& variant : method.variants) {
         const std::string id = variant.name.empty() ? method.id : method.id + ":" + variant.name;
         all.push_back({id, [id](Random& r) { return usable_frame_of(id, r); }});
@@ -132,7 +132,7 @@ Mesh random_solid(Random& random) {
   Mesh mesh = faults::pebble(3 + static_cast<int>(random.below(4)), random.between(1, 20), random);
   static const std::vector<std::string> makers = [] {
     std::vector<std::string> ids{""};  // nobody's method
-    for (const MethodDescription& method : registered_methods()) {
+    for (const MethodDescription& method : built_in_methods()) {
       if (method.takes_objects) ids.push_back(method.id);
     }
     return ids;

@@ -19,7 +19,8 @@ struct Subject {
   std::function<std::optional<faults::Surface>(Random&)> make;
 };
 
-/// Foreign meshes first, then every variant in the registry that takes a terrain.
+/// Foreign meshes first, then every built-in variant that takes a terrain. Not a user's own: the score is the
+/// oracles', and the same beside whatever methods they judge.
 const std::vector<Subject>& fault_subjects();
 
 /// A closed mesh of a general shape: a pebble, or what a method that takes objects draws of it.

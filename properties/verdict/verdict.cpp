@@ -130,6 +130,10 @@ void summarize_vertical(const std::vector<FrameVerdict>& frames, oracle::Vertica
       all.certain_max = vertical.certain_max;
       all.certain_at = vertical.certain_at;
     }
+    if (all.area_m2 == 0 || worse(vertical.samples_max, all.samples_max)) {
+      all.samples_max = vertical.samples_max;
+      all.samples_at = vertical.samples_at;
+    }
     all.area_m2 += vertical.area_m2;
     pool.add(vertical.mean, vertical.rms, vertical.area_m2);
   }

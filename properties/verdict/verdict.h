@@ -94,6 +94,7 @@ struct SpaceSummary {
   double projected_area = 0;  ///< largest |share|
 };
 
+/// What the oracles say of one frame.
 struct FrameVerdict {
   int index = 0;
   Subject subject = Subject::terrain;  ///< what is asked: was_asked()
@@ -165,6 +166,7 @@ bool was_asked(Subject subject, std::string_view path);
 /// that path.
 double figure_value(const RunSummary& summary, std::string_view path);
 
+/// One flight: a method at a threshold along a trajectory, frame by frame.
 struct RunVerdict {
   std::string id;  ///< "<terrain or mesh>.<trajectory>.<method>.<threshold>"
   Subject subject = Subject::terrain;
@@ -176,6 +178,7 @@ struct RunVerdict {
   RunSummary summary;
 };
 
+/// What was flown over.
 struct TerrainFacts {
   std::string id;
   int columns = 0, rows = 0;
@@ -191,6 +194,7 @@ struct MeshFacts {
   double radius_m = 0, object_radius_m = 0;              ///< of the balls around the scene and one object
 };
 
+/// One gate asked of one run.
 struct GateVerdict {
   std::string name;   ///< "block_bintree: crack == 0"
   std::string run;    ///< run id
@@ -205,6 +209,7 @@ struct GateVerdict {
   bool needless = false;
 };
 
+/// All that results.json tells.
 struct SuiteVerdict {
   std::string suite;
   std::string yardstick;  ///< the method that says how many triangles are needed; empty: none in the suite
@@ -231,6 +236,7 @@ struct RunTiming {
   std::vector<double> update_ms;  ///< one a frame: processor time of the thread that updates
   double oracle_s = 0;
 };
+/// All that timing.json tells.
 struct SuiteTiming {
   std::string machine, compiler, build_type;
   int jobs = 0;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // glTF 2.0 (.gltf, .glb): the scene's nodes one after the other, each with its meshes in place.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "scenarios/mesh_file/gltf_document.h"
@@ -36,10 +38,15 @@ struct Affine {
     }
     return out;
   }
-  [[nodiscard]] bool mirrors() const {
-    const auto& r = rows;
-    return dot(Vec3{r[0][0], r[0][1], r[0][2]},
-               cross(Vec3{r[1][0], r[1][1], r[1][2]}, Vec3{r[2][0], r[2][1], r[2][2]})) < 0;
+  [[nodiscard]] Vec3 row(std::size_t i) const { return {rows[i][0], rows[i][1], rows[i][2]}; }
+  [[nodiscard]] bool mirrors() const { return dot(row(0), cross(row(1), row(2))) < 0; }
+  /// A normal's direction: by the cofactors, which are the inverse's transpose up to a factor; zero if it has
+  /// none then.
+  [[nodiscard]] Vec3 normal(Vec3 n) const {
+    const Vec3 turned{dot(cross(row(1), row(2)), n), dot(cross(row(2), row(0)), n),
+                      dot(cross(row(0), row(1)), n)};
+    const double size = mirrors() ? -length(turned) : length(turned);
+    return size != 0 && std::isfinite(size) ? turned * (1 / size) : Vec3{};
   }
 };
 
@@ -62,6 +69,7 @@ class Reader {
       }
     }
     if (out_.polygons() == 0) doc_.fail("the scene", "shows no triangle");
+    if (!all_normals_) out_.normals.clear();
     return std::move(out_);
   }
 
@@ -152,19 +160,25 @@ class Reader {
     return out;
   }
 
+  /// The vertices that an accessor of positions has become.
+  struct Placed {
+    std::size_t first = 0, vertices = 0;
+    std::optional<std::uint64_t> normal;
+  };
+
   void mesh(std::uint64_t index, const Affine& transform, std::string_view named_by) {
     const std::string place = fmt::format("meshes[{}]", index);
     const Json* primitives = doc_.find(doc_.element("meshes", index, named_by), "primitives", place);
     if (primitives == nullptr || !primitives->is_array()) doc_.fail(place, "has no list of primitives");
     const std::size_t polygons = out_.polygons();
-    std::map<std::uint64_t, std::pair<std::size_t, std::size_t>> placed;  // accessor: first vertex, vertices
+    std::map<std::uint64_t, Placed> placed;
     for (std::size_t p = 0; p < primitives->size(); ++p)
       primitive((*primitives)[p], transform, fmt::format("{}.primitives[{}]", place, p), placed);
     if (out_.polygons() > polygons) out_.part_ends.push_back(out_.polygons());
   }
 
   void primitive(const Json& entry, const Affine& transform, const std::string& place,
-                 std::map<std::uint64_t, std::pair<std::size_t, std::size_t>>& placed) {
+                 std::map<std::uint64_t, Placed>& placed) {
     constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
     const std::uint64_t mode = doc_.whole_or(entry, "mode", kTriangles, place);
     if (mode > kFan) doc_.fail(place, fmt::format("has unknown mode {}", mode));
@@ -174,16 +188,24 @@ class Reader {
     if (mode < kTriangles || position == nullptr) return;  // points, lines, nothing: no surface
     const std::uint64_t accessor = doc_.whole(*position, place + ".attributes.POSITION");
     auto known = placed.find(accessor);
-    if (known == placed.end()) known = placed.emplace(accessor, positions(accessor, transform, place)).first;
-    const auto [base, vertices] = known->second;
+    const std::optional<std::uint64_t> normal = normal_accessor(*attributes);
+    if (known == placed.end()) {
+      known = placed.emplace(accessor, positions(accessor, transform, place)).first;
+      known->second.normal = normal;
+      if (all_normals_) all_normals_ = normal && normals(*normal, known->second.vertices, transform);
+    }
+    const auto [base, vertices, its_normal] = known->second;
+    // Two normals for one vertex.
+    if (its_normal != normal) all_normals_ = false;
 
+    const std::size_t made = mode == kTriangles ? 1 : 3;  // corners from one of a strip or fan
     std::vector<std::uint32_t> corners;
     if (const Json* indices = doc_.find(entry, "indices", place)) {
       const auto a = doc_.accessor(doc_.whole(*indices, place + ".indices"), place + ".indices");
       if (a.components != 1 || a.normalized ||
           (a.component != 5121 && a.component != 5123 && a.component != 5125))
         doc_.fail(a.place, "cannot hold indices: these are unsigned scalars");
-      spend(a.count);
+      spend(made * a.count);
       corners.reserve(a.count);
       for (std::size_t k = 0; k < a.count; ++k) {
         const double index = a.value(k, 0);
@@ -192,7 +214,7 @@ class Reader {
         corners.push_back(static_cast<std::uint32_t>(base + static_cast<std::size_t>(index)));
       }
     } else {
-      spend(vertices);
+      spend(made * vertices);
       for (std::size_t k = 0; k < vertices; ++k) corners.push_back(static_cast<std::uint32_t>(base + k));
     }
     if (mode == kTriangles && corners.size() % 3 != 0)
@@ -205,6 +227,8 @@ class Reader {
       out_.ends.push_back(out_.corners.size());
     };
     const std::size_t step = mode == kTriangles ? 3 : 1;
+    make_room(out_.ends, corners.size() / step);
+    make_room(out_.corners, corners.size() / step * 3);
     for (std::size_t k = 0; k + 2 < corners.size(); k += step) {
       if (mode == kFan) {
         add(corners[k + 1], corners[k + 2], corners[0]);
@@ -216,28 +240,57 @@ class Reader {
     }
   }
 
-  std::pair<std::size_t, std::size_t> positions(std::uint64_t accessor, const Affine& transform,
-                                                const std::string& place) {
+  Placed positions(std::uint64_t accessor, const Affine& transform, const std::string& place) {
     const auto a = doc_.accessor(accessor, place + ".attributes.POSITION");
     if (a.components != 3 || a.component == 5125)
       doc_.fail(a.place,
                 "cannot hold positions: these are VEC3 of floats, or of small integers if quantized");
     spend(a.count);
     const std::size_t base = out_.positions.size();
+    make_room(out_.positions, a.count);
     for (std::size_t k = 0; k < a.count; ++k) {
       const Vec3 p = transform({a.value(k, 0), a.value(k, 1), a.value(k, 2)});
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
         doc_.fail(a.place, fmt::format("element {} is a position that is not finite", k));
       out_.positions.push_back(p);
     }
-    return {base, a.count};
+    return {base, a.count, {}};
+  }
+
+  static std::optional<std::uint64_t> normal_accessor(const Json& attributes) {
+    const auto found = attributes.find("NORMAL");
+    if (found == attributes.end() || !found->is_number_unsigned()) return std::nullopt;
+    return found->get<std::uint64_t>();
+  }
+
+  /// Appends the normals of the vertices placed last. False, and no line, for what cannot be read: the
+  /// surface does not depend on it.
+  bool normals(std::uint64_t accessor, std::size_t vertices, const Affine& transform) {
+    try {
+      const auto a = doc_.accessor(accessor, "NORMAL");
+      if (a.components != 3 || a.count != vertices) return false;
+      spend(a.count);
+      make_room(out_.normals, a.count);
+      for (std::size_t k = 0; k < a.count; ++k)
+        out_.normals.push_back(transform.normal({a.value(k, 0), a.value(k, 1), a.value(k, 2)}));
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// Room for so many more, without giving up growth by doubling.
+  template <class T>
+  static void make_room(std::vector<T>& values, std::size_t more) {
+    if (values.size() + more > values.capacity())
+      values.reserve(std::max(values.size() + more, 2 * values.capacity()));
   }
 
   /// A mesh may be shown by many nodes, data by many meshes: that must not make little of a file into any
   /// amount of memory.
   void spend(std::size_t elements) {
-    constexpr std::size_t kMostReuse =
-        64;  // vertices and corners per byte read; an instrument's screws take < 1
+    // Vertices and corners per byte read: less than a kilobyte of memory. An instrument's screws take < 1.
+    constexpr std::size_t kMostReuse = 16;
     spent_ += elements;
     if (spent_ / kMostReuse > doc_.bytes_read())
       doc_.fail("the scene",
@@ -251,6 +304,7 @@ class Reader {
   MeshFile out_;
   std::vector<std::uint8_t> seen_;
   std::size_t spent_ = 0;
+  bool all_normals_ = true;  // so far
 };
 
 }  // namespace

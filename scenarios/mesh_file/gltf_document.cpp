@@ -3,31 +3,17 @@
 #include "scenarios/mesh_file/gltf_document.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "scenarios/error.h"
+#include "scenarios/little_endian.h"
+#include "scenarios/whole_file.h"
 
 namespace plumbline::mesh_file {
 namespace {
-
-/// Little-endian value at `offset`. Requires: it lies inside.
-template <class T>
-T at(std::string_view bytes, std::size_t offset) {
-  std::array<char, sizeof(T)> copy{};
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    copy[std::endian::native == std::endian::big ? sizeof(T) - 1 - k : k] = bytes[offset + k];
-  T value{};
-  std::memcpy(&value, copy.data(), sizeof(T));
-  return value;
-}
 
 std::size_t size_of(std::uint64_t component) {
   if (component == 5120 || component == 5121) return 1;
@@ -48,25 +34,25 @@ double GltfDocument::Accessor::value(std::size_t k, unsigned c) const {
   // Specification 3.11: how whole numbers stand for [-1, 1] and [0, 1].
   switch (component) {
     case 5120: {
-      const double x = at<std::int8_t>(bytes, offset);
+      const double x = value_at<std::int8_t>(bytes, offset);
       return normalized ? std::max(x / 127, -1.0) : x;
     }
     case 5121: {
-      const double x = at<std::uint8_t>(bytes, offset);
+      const double x = value_at<std::uint8_t>(bytes, offset);
       return normalized ? x / 255 : x;
     }
     case 5122: {
-      const double x = at<std::int16_t>(bytes, offset);
+      const double x = value_at<std::int16_t>(bytes, offset);
       return normalized ? std::max(x / 32767, -1.0) : x;
     }
     case 5123: {
-      const double x = at<std::uint16_t>(bytes, offset);
+      const double x = value_at<std::uint16_t>(bytes, offset);
       return normalized ? x / 65535 : x;
     }
     case 5125:
-      return at<std::uint32_t>(bytes, offset);
+      return value_at<std::uint32_t>(bytes, offset);
     default:
-      return static_cast<double>(at<float>(bytes, offset));
+      return static_cast<double>(value_at<float>(bytes, offset));
   }
 }
 
@@ -101,17 +87,17 @@ void GltfDocument::parse_container(std::string_view bytes) {
   if (bytes.starts_with("glTF")) {
     constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
     if (bytes.size() < 12) fail("the header", "is cut short");
-    if (const auto version = at<std::uint32_t>(bytes, 4); version != 2)
+    if (const auto version = value_at<std::uint32_t>(bytes, 4); version != 2)
       fail("the header", fmt::format("names version {} of the container; 2 is read here", version));
-    const std::size_t length = at<std::uint32_t>(bytes, 8);
+    const std::size_t length = value_at<std::uint32_t>(bytes, 8);
     if (length < 12 || length > bytes.size())
       fail("the header",
            fmt::format("states {} bytes, the file has {}; it was cut short", length, bytes.size()));
     std::string_view rest = bytes.substr(12, length - 12);
     for (std::size_t k = 0; k == 0 || !rest.empty(); ++k) {
       if (rest.size() < 8) fail(fmt::format("chunk {}", k), "has no whole header; the file was cut short");
-      const std::size_t size = at<std::uint32_t>(rest, 0);
-      const auto type = at<std::uint32_t>(rest, 4);
+      const std::size_t size = value_at<std::uint32_t>(rest, 0);
+      const auto type = value_at<std::uint32_t>(rest, 4);
       rest.remove_prefix(8);
       if (size > rest.size())
         fail(fmt::format("chunk {}", k),
@@ -149,7 +135,10 @@ std::uint64_t GltfDocument::whole(const Json& value, std::string_view place) con
   constexpr double kMost = 9007199254740992.0;  // 2^53: whole numbers of JSON's doubles end here
   const double number = value.is_number() ? value.get<double>() : -1;
   if (!(number >= 0 && number <= kMost) || std::floor(number) != number)
-    fail(place, fmt::format("{} is not a whole number", one_line(value.dump(-1, ' ', true), 40)));
+    // Printing a nest of lists would take the stack that reading it did not.
+    fail(place,
+         fmt::format("{} is not a whole number",
+                     value.is_structured() ? value.type_name() : one_line(value.dump(-1, ' ', true), 40)));
   return static_cast<std::uint64_t>(number);
 }
 
@@ -230,9 +219,11 @@ std::string GltfDocument::relative_file(std::string_view uri, std::string_view p
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     fail(place, fmt::format("'{}' is missing beside the model", one_line(uri, 80)));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(place, fmt::format("'{}' cannot be read", one_line(uri, 80)));
-  return {std::istreambuf_iterator<char>(in), {}};
+  try {
+    return read_whole_file(file, "a buffer");
+  } catch (const InputError&) {
+    fail(place, fmt::format("'{}' cannot be read", one_line(uri, 80)));
+  }
 }
 
 std::string_view GltfDocument::buffer(std::uint64_t index, std::string_view named_by) {

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
 #include "scenarios/mesh_file/scanner.h"
+#include "scenarios/whole_file.h"
 
 namespace plumbline {
 namespace {
@@ -36,30 +35,45 @@ std::vector<Vec2> flattened(const std::vector<Vec3>& p) {
   return flat;
 }
 
+/// Always the first ear that there is. A triangle of neighbours is searched once for a corner inside, and
+/// from there on when that one is gone: quadratic in corners, however the polygon winds.
 void clip_ears(const std::vector<Vec2>& flat, std::vector<std::array<std::size_t, 3>>& out) {
   std::vector<std::size_t> left(flat.size());
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
+  constexpr std::size_t kNever = static_cast<std::size_t>(-1);
+  std::vector<std::uint8_t> gone(flat.size(), 0);
+  std::vector<std::size_t> inside(flat.size(),
+                                  0);  // by tip: no corner before this one is; kNever: no left turn
   const auto is_ear = [&](std::size_t k) {
     const std::size_t n = left.size(), i = left[(k + n - 1) % n], j = left[k], l = left[(k + 1) % n];
+    std::size_t& m = inside[j];
+    if (m == kNever) return false;
     const Vec2 a = flat[i], b = flat[j], c = flat[l];
-    if (!(turn(a, b, c) > 0)) return false;
-    return std::none_of(left.begin(), left.end(), [&](std::size_t m) {
-      return m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 && turn(b, c, flat[m]) >= 0 &&
-             turn(c, a, flat[m]) >= 0;
-    });
+    if (m == 0 && !(turn(a, b, c) > 0)) {
+      m = kNever;
+      return false;
+    }
+    for (; m < flat.size(); ++m) {
+      if (gone[m] == 0 && m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 &&
+          turn(b, c, flat[m]) >= 0 && turn(c, a, flat[m]) >= 0)
+        return false;
+    }
+    return true;
   };
   while (left.size() > 3) {
     std::size_t k = 0;
     while (k < left.size() && !is_ear(k)) ++k;
     if (k == left.size()) k = 1;  // it crosses itself or is flat: any corner goes, and the search ends
-    const std::size_t n = left.size();
-    out.push_back({left[(k + n - 1) % n], left[k], left[(k + 1) % n]});
+    const std::size_t n = left.size(), before = left[(k + n - 1) % n], after = left[(k + 1) % n];
+    out.push_back({before, left[k], after});
+    gone[left[k]] = 1;
+    inside[before] = inside[after] = 0;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
   }
   out.push_back({left[0], left[1], left[2]});
 }
 
-// A corner of an ear search costs the square of the polygon; this many are still quick.
+// Ears cost the square of the polygon; this many are still quick.
 constexpr std::size_t kLongestConcave = 4096;
 
 }  // namespace
@@ -75,18 +89,22 @@ MeshFile parse(std::string_view bytes, std::string_view name,
                lower.begin(), lower.end(), name.end() - static_cast<std::ptrdiff_t>(lower.size()),
                [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b + 32) : b); });
   };
+  const auto of = [](const char* format, MeshFile mesh) {
+    mesh.format = format;
+    return mesh;
+  };
   if (bytes.starts_with("glTF") || ends_in(".glb") || ends_in(".gltf"))
-    return parse_gltf(bytes, name, folder);
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return parse_ply(bytes, name);
-  if (ends_in(".obj")) return parse_obj(bytes, name);
-  if (ends_in(".off") || bytes.starts_with("OFF")) return parse_off(bytes, name);
+    return of("glTF", parse_gltf(bytes, name, folder));
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return of("PLY", parse_ply(bytes, name));
+  if (ends_in(".obj")) return of("OBJ", parse_obj(bytes, name));
+  if (ends_in(".off") || bytes.starts_with("OFF")) return of("OFF", parse_off(bytes, name));
   if (ends_in(".stl") || bytes.starts_with("solid")) {
     // Some binary files begin with "solid" too; their size gives them away.
     const bool text =
         bytes.starts_with("solid") && bytes.substr(0, 1024).find("facet") != std::string_view::npos;
     if (text || (bytes.starts_with("solid") && bytes.find("endsolid") != std::string_view::npos))
-      return parse_stl_text(bytes, name);
-    if (bytes.size() >= 84) return parse_stl_binary(bytes, name);
+      return of("STL", parse_stl_text(bytes, name));
+    if (bytes.size() >= 84) return of("STL", parse_stl_binary(bytes, name));
   }
   throw InputError(
       fmt::format("{}: no mesh format that is read here; PLY, OBJ, OFF, STL and glTF are", one_line(name)));
@@ -97,13 +115,7 @@ MeshFile parse(std::string_view bytes, std::string_view name,
 MeshFile parse_mesh(std::string_view bytes, std::string_view name) { return parse(bytes, name, {}); }
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(fmt::format("{}: is a folder, not a mesh", one_line(path.string())));
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw InputError(fmt::format("cannot read {}: no such file, or no permission", one_line(path.string())));
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = read_whole_file(path, "a mesh");
   return parse(bytes, path.string(), path.parent_path());
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct MeshFile {
   std::vector<std::size_t> ends{};     ///< per polygon: where its corners end
   /// Per part (glTF: a node that shows a mesh): where its polygons end. Empty: the file names no parts.
   std::vector<std::size_t> part_ends{};
+  /// Per vertex; empty if the file does not give every vertex that is used exactly one that can be read. PLY
+  /// and OBJ: as they stand there; glTF: unit, turned by the node, or zero where there is none.
+  std::vector<Vec3> normals{};
+  std::string format{};  ///< "PLY", "OBJ", "OFF", "STL", "glTF"
 
   [[nodiscard]] std::size_t polygons() const { return ends.size(); }
 };

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // PLY: a header names elements and the types of their properties; values follow as text or bytes.
+#include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "scenarios/little_endian.h"
 #include "scenarios/mesh_file/scanner.h"
 
 namespace plumbline::mesh_file {
@@ -41,10 +42,14 @@ std::optional<Type> type_named(std::string_view name) {
   return std::nullopt;
 }
 
+// What a property is to a mesh: coordinates and normals by their place, the list of a polygon's corners.
+enum Role : std::size_t { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kCorners, kNothing };
+
 struct Property {
   std::string name;
   Type type = Type::f32;
   std::optional<Type> list;  // the type of its length
+  Role role = kNothing;
 };
 struct Element {
   std::string name;
@@ -53,12 +58,13 @@ struct Element {
 };
 
 /// Values one after the other, whatever the coding.
+template <Coding coding>
 class Values {
  public:
-  Values(Scanner scanner, Coding coding) : scanner_(scanner), bytes_(scanner.rest()), coding_(coding) {}
+  explicit Values(const Scanner& scanner) : scanner_(scanner), bytes_(scanner.rest()) {}
 
   double next(Type type) {
-    if (coding_ == Coding::text) return scanner_.number(scanner_.word());
+    if constexpr (coding == Coding::text) return scanner_.number(scanner_.word());
     switch (type) {
       case Type::i8:
         return raw<std::int8_t>();
@@ -87,24 +93,22 @@ class Values {
     return integer;
   }
   [[nodiscard]] const Scanner& scanner() const { return scanner_; }
+  [[nodiscard]] std::size_t left() const {
+    return coding == Coding::text ? scanner_.rest().size() : bytes_.size();
+  }
 
  private:
   template <class T>
   double raw() {
     if (bytes_.size() < sizeof(T))
       scanner_.fail("the file ends inside its data; it was cut short, or a count is wrong");
-    std::array<char, sizeof(T)> copy{};
-    const bool swap = (coding_ == Coding::big) != (std::endian::native == std::endian::big);
-    for (std::size_t k = 0; k < sizeof(T); ++k) copy[swap ? sizeof(T) - 1 - k : k] = bytes_[k];
+    const T value = value_at<T>(bytes_, 0, coding == Coding::big);
     bytes_.remove_prefix(sizeof(T));
-    T value{};
-    std::memcpy(&value, copy.data(), sizeof(T));
     return static_cast<double>(value);
   }
 
   Scanner scanner_;
   std::string_view bytes_;
-  Coding coding_;
 };
 
 struct Header {
@@ -159,54 +163,92 @@ Header read_header(Scanner& in) {
   return header;
 }
 
-}  // namespace
+/// Gives the properties of vertices and faces their roles.
+void assign_roles(Element& element, const Scanner& scanner) {
+  static constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "nx", "ny", "nz"};
+  if (element.name == "vertex") {
+    std::array<int, 6> seen{};
+    for (Property& p : element.properties) {
+      const auto found = std::find(kNames.begin(), kNames.end(), p.name);
+      if (p.list || found == kNames.end()) continue;
+      p.role = static_cast<Role>(found - kNames.begin());
+      ++seen[p.role];
+    }
+    if (seen[kX] + seen[kY] + seen[kZ] != 3) scanner.fail("element vertex has no x, y and z");
+    const bool with_normals = seen[kNormalX] > 0 && seen[kNormalY] > 0 && seen[kNormalZ] > 0;
+    for (Property& p : element.properties) {
+      if (!with_normals && p.role >= kNormalX && p.role <= kNormalZ) p.role = kNothing;
+    }
+  } else if (element.name == "face") {
+    for (Property& p : element.properties) {
+      if (p.list && (p.name == "vertex_indices" || p.name == "vertex_index")) p.role = kCorners;
+    }
+  }
+}
 
-MeshFile parse_ply(std::string_view bytes, std::string_view name) {
-  Scanner in(bytes, name);
-  const Header header = read_header(in);
-  Values values(in, header.coding);
+template <Coding coding>
+MeshFile read_elements(const Scanner& in, std::vector<Element> elements) {
+  Values<coding> values(in);
   MeshFile mesh;
   bool has_vertices = false;
-  for (const Element& element : header.elements) {
+  for (Element& element : elements) {
     // Without properties an element has no bytes, and its count would be bounded by nothing.
     if (element.properties.empty()) continue;
     const bool vertices = element.name == "vertex", faces = element.name == "face";
     if (faces && !has_vertices) values.scanner().fail("faces stand before the vertices");
-    if (vertices) {
-      int axes = 0;
-      for (const auto& p : element.properties)
-        axes += !p.list && (p.name == "x" || p.name == "y" || p.name == "z");
-      if (axes != 3) values.scanner().fail("element vertex has no x, y and z");
-      has_vertices = true;
+    assign_roles(element, values.scanner());
+    has_vertices = has_vertices || vertices;
+    const bool normals = std::any_of(element.properties.begin(), element.properties.end(),
+                                     [](const Property& p) { return p.role == kNormalX; });
+    // A value takes a byte at least: more will not come, whatever the count says.
+    const std::size_t likely = static_cast<std::size_t>(
+        std::min<std::uint64_t>(element.count, values.left() / element.properties.size()));
+    // Once: made room for anew by each of many elements, all would be copied each time.
+    if (vertices && mesh.positions.empty()) mesh.positions.reserve(likely);
+    if (vertices && normals && mesh.normals.empty()) mesh.normals.reserve(likely);
+    if (faces && mesh.ends.empty()) {
+      mesh.ends.reserve(likely);
+      mesh.corners.reserve(std::min(3 * likely, values.left()));
     }
     for (std::uint64_t k = 0; k < element.count; ++k) {
-      Vec3 position;
+      std::array<double, kNothing + 1> value{};
       for (const Property& property : element.properties) {
-        if (property.list) {
-          const auto length = values.whole(*property.list);
-          if (length < 0) values.scanner().fail("a list has a negative length");
-          const bool corners =
-              faces && (property.name == "vertex_indices" || property.name == "vertex_index");
-          for (std::int64_t c = 0; c < length; ++c) {
-            if (corners) {
-              mesh.corners.push_back(
-                  values.scanner().index(values.whole(property.type), mesh.positions.size()));
-            } else {
-              values.next(property.type);
-            }
-          }
-          if (corners) mesh.ends.push_back(mesh.corners.size());
+        if (!property.list) {
+          value[property.role] = values.next(property.type);
+          continue;
+        }
+        const auto length = values.whole(*property.list);
+        if (length < 0) values.scanner().fail("a list has a negative length");
+        if (property.role == kCorners) {
+          for (std::int64_t c = 0; c < length; ++c)
+            mesh.corners.push_back(
+                values.scanner().index(values.whole(property.type), mesh.positions.size()));
+          mesh.ends.push_back(mesh.corners.size());
         } else {
-          const double value = values.next(property.type);
-          if (property.name == "x") position.x = value;
-          if (property.name == "y") position.y = value;
-          if (property.name == "z") position.z = value;
+          for (std::int64_t c = 0; c < length; ++c) values.next(property.type);
         }
       }
-      if (vertices) mesh.positions.push_back(position);
+      if (vertices) mesh.positions.push_back({value[kX], value[kY], value[kZ]});
+      if (vertices && normals) mesh.normals.push_back({value[kNormalX], value[kNormalY], value[kNormalZ]});
     }
   }
+  if (mesh.normals.size() != mesh.positions.size()) mesh.normals.clear();
   return mesh;
+}
+
+}  // namespace
+
+MeshFile parse_ply(std::string_view bytes, std::string_view name) {
+  Scanner in(bytes, name);
+  Header header = read_header(in);
+  switch (header.coding) {
+    case Coding::little:
+      return read_elements<Coding::little>(in, std::move(header.elements));
+    case Coding::big:
+      return read_elements<Coding::big>(in, std::move(header.elements));
+    default:
+      return read_elements<Coding::text>(in, std::move(header.elements));
+  }
 }
 
 }  // namespace plumbline::mesh_file

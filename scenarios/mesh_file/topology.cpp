@@ -4,22 +4,21 @@
 // What files leave open: vertices that are one, and vertices that should be several.
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <map>
 #include <numeric>
 #include <utility>
 
 #include "scenarios/mesh_file/mesh_file.h"
+#include "scenarios/point_table.h"
 
 namespace plumbline {
 
 Mesh welded(const Mesh& mesh) {
-  std::vector<std::uint32_t> first(mesh.positions.size());
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); };
-  std::map<std::array<std::uint64_t, 3>, std::uint32_t> seen;
+  std::vector<std::uint32_t> first(mesh.positions.size()), of_number;
+  PointTable table(mesh.positions.size());
   for (std::uint32_t v = 0; v < first.size(); ++v) {
-    const Vec3 p = mesh.positions[v];
-    first[v] = seen.try_emplace({bits(p.x), bits(p.y), bits(p.z)}, v).first->second;
+    const std::uint32_t number = table.number(mesh.positions[v]);
+    if (number == of_number.size()) of_number.push_back(v);
+    first[v] = of_number[number];
   }
   Mesh out;
   constexpr std::uint32_t kNew = 0xffffffff;

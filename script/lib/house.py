@@ -60,6 +60,8 @@ LINE_RULES = [
 SPDX = ("SPDX-FileCopyrightText: The plumbline authors", "SPDX-License-Identifier: GPL-3.0-or-later")
 # Formats without comments, prose, what `plumbline fuzz` and `run --write-expected` write, and files that carry somebody else's terms.
 NO_SPDX = re.compile(r"\.(md|json|csv|png|svg|ply|obj|off|stl|glb|gltf|terrain|dem|prj|txt|asc|raw|npz|bin|in)$|^LICENSE|(^|/)\.[a-z-]+$|/vendor/|^properties/atlas/.*\.toml$|\.expected\.toml$")
+# Bytes that a reader is fed, hostile ones among them: what they look like is the point.
+FUZZ_INPUTS = re.compile(r"^tests/fuzz/(corpus|crashers)/")
 PATIENCE_LINES = 500
 # Long for a reason that a reader meets anyway.
 LONG_FILES = re.compile(r"^(LICENSE|.*\.(json|svg|csv|ply|obj|off|stl|gltf)|.*/vendor/.*)$")
@@ -133,6 +135,8 @@ def main() -> int:
     remarks = self_test()
     files = tracked_files()
     for path in files:
+        if FUZZ_INPUTS.match(path):
+            continue
         with open(path, "rb") as file:
             data = file.read()
         if b"\0" in data:

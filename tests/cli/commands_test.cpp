@@ -77,7 +77,9 @@ TEST_F(List, HasEveryShelf) {
       {"trajectories",
        {"approach", "retreat", "orbit", "skim", "spin", "nadir", "teleport", "hover", "poses"}},
       {"laws", {"conforming"}},
-      {"oracles", {"conformity", "vertical", "image", "shape"}},
+      {"oracles",
+       {"conformity", "vertical", "image", "economy", "stability", "shape", "soundness", "likeness", "border",
+        "seams", "placement", "tile_conformance", "302 crack"}},
   };
   const Outcome all = run({"list"});
   EXPECT_EQ(all.status, 0);
@@ -94,6 +96,12 @@ TEST_F(List, HasEveryShelf) {
       })) << entry;
     }
   }
+}
+
+TEST_F(List, HasEveryOracleOfTheFolder) {
+  const Outcome outcome = run({"list", "oracles"});
+  for (const char* number : {"O1", "O2", "O3", "O4", "O5", "O6", "O7"})
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("[ORACLES ") + number + "]"));
 }
 
 class Run : public ProgramTest {
@@ -116,6 +124,20 @@ TEST_F(Run, WritesTheReportAndPasses) {
   EXPECT_THAT(outcome.out, HasSubstr("report.html"));
   // Nothing but the report: no probe, no temporary name.
   for (const std::string& name : files()) EXPECT_THAT(name, ::testing::Not(HasSubstr("probe")));
+}
+
+TEST_F(Run, TakesAShippedSuiteByName) {
+  const Outcome outcome = run({"run", "smoke.toml", "--methods", "full", "--no-pictures", "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json::parse(read_file(folder() / "out/results.json")).at("suite"), "smoke");
+}
+
+// A file of that name goes before what is shipped.
+TEST_F(Run, PrefersAFileToAShippedSuite) {
+  put("smoke.toml", "[suite]\nnme = 1\n");
+  const Outcome outcome = run({"run", "smoke.toml"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("nme"));
 }
 
 TEST_F(Run, FiguresHaveThePromisedNames) {

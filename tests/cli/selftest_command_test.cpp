@@ -27,9 +27,9 @@ TEST_F(SelftestCommand, PrintsTheScoreOfEveryOracle) {
   const Outcome outcome =
       run({"selftest", "--faults", "200", "--clean", "100", "--json", path("score.json")});
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  for (const char* word :
-       {"O1 conformity", "O2 vertical error", "O3 image error", "O4 economy", "O5 stability", "O6 shape",
-        "O7 general meshes", "corner_lifted_ulp", "0 misplaced"})
+  for (const char* word : {"O1 conformity", "O2 vertical error", "O3 image error", "O4 economy",
+                           "O5 stability", "O6 shape", "O7 general meshes", "O1 between meshes",
+                           "tile format", "placement", "corner_lifted_ulp", "0 misplaced"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
   const json score = json::parse(read_file(path("score.json")));
   EXPECT_EQ(score["schema"], "plumbline.selftest/1");

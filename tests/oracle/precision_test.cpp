@@ -241,7 +241,8 @@ TEST(Precision, VerticalErrorSkipsByExactSignsAndCutsFarTrianglesInRationals) {
   tally = beyond_double([&] {
     EXPECT_EQ(judged({kTenths.a, kTenths.b, {0.3, up(0.3)}}).max, 1) << "an ulp makes it one";
   });
-  EXPECT_EQ(tally.interval_signs + tally.exact_signs, 1U);
+  EXPECT_GE(tally.interval_signs + tally.exact_signs, 1U)
+      << "and tells the samples beside it from those inside";
   constexpr double far = 0x1p40;
   tally = beyond_double([&] {
     const VerticalError error = judged({{{-far, -far}, {far, -far}, {0, far}}});

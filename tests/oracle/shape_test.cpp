@@ -149,5 +149,79 @@ TEST(Shape, MatchesAnglesFromDirections) {
   }
 }
 
+TEST(EdgeLengths, InPlanAndInSpace) {
+  // Sides 3, 4, 5 in plan; the vertex at (3, 0) stands 4 up: 5, √32, 5 in space.
+  const Mesh mesh{{{0, 0, 0}, {3, 0, 4}, {3, 4, 0}}, {{0, 1, 2}}};
+  const EdgeLengths plan = edge_lengths(mesh, false), space = edge_lengths(mesh, true);
+  EXPECT_EQ(plan.shortest, 3);
+  EXPECT_EQ(plan.median, 4);
+  EXPECT_EQ(plan.shortest_vertices, (std::array{0u, 1u}));
+  EXPECT_EQ(space.shortest, 5);
+  EXPECT_EQ(space.median, 5);
+  EXPECT_EQ(space.shortest_vertices, (std::array{0u, 1u})) << "of equals the first";
+}
+
+TEST(EdgeLengths, WhatHasNoLengthDoesNotCount) {
+  // A wall's upright edge has none in plan, a repeated place none at all.
+  Mesh mesh{{{0, 0, 0}, {0, 0, -2}, {1, 0, 0}, {1, 0, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 9}}};
+  EXPECT_EQ(edge_lengths(mesh, false).shortest, 1);
+  EXPECT_EQ(edge_lengths(mesh, false).median, 1);
+  EXPECT_EQ(edge_lengths(mesh, true).shortest, 1);
+  EXPECT_EQ(edge_lengths(mesh, true).median, 1) << "1, 1, 1, 2, √5";
+  mesh.positions[2].x = mesh.positions[3].x = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(edge_lengths(mesh, false).shortest, 0);
+  EXPECT_EQ(edge_lengths(mesh, true).median, 2);
+  EXPECT_EQ(edge_lengths({}, true).shortest, 0);
+  EXPECT_EQ(edge_lengths({}, true).median, 0);
+}
+
+TEST(EdgeLengths, SizeDoesNotMatter) {
+  for (const double size : {0x1p-1060, 0x1p-600, 1.0, 0x1p600, 0x1p1020}) {
+    const Mesh mesh{{{0, 0, 0}, {3 * size, 0, 0}, {3 * size, 4 * size, 0}}, {{0, 1, 2}}};
+    for (const bool in_space : {false, true}) {
+      EXPECT_EQ(edge_lengths(mesh, in_space).shortest, 3 * size);
+      EXPECT_EQ(edge_lengths(mesh, in_space).median, 4 * size);
+    }
+  }
+}
+
+TEST(EdgeLengths, MatchesAllLengthsSorted) {
+  Random random(32);
+  for (int round = 0; round < 300; ++round) {
+    Mesh mesh;
+    const std::size_t vertices = 3 + random.below(60), triangles = 1 + random.below(120);
+    // From a few whole numbers (many equal lengths), or of sizes apart by any factor.
+    const bool whole = random.below(2) == 0;
+    const auto coordinate = [&] {
+      return whole ? static_cast<double>(random.below(4))
+                   : std::ldexp(random.between(-1, 1), static_cast<int>(random.below(40)) - 20);
+    };
+    for (std::size_t v = 0; v < vertices; ++v)
+      mesh.positions.push_back({coordinate(), coordinate(), coordinate()});
+    for (std::size_t t = 0; t < triangles; ++t) {
+      mesh.triangles.push_back({static_cast<std::uint32_t>(random.below(vertices)),
+                                static_cast<std::uint32_t>(random.below(vertices)),
+                                static_cast<std::uint32_t>(random.below(vertices))});
+    }
+    for (const bool in_space : {false, true}) {
+      std::vector<double> all;
+      for (const auto& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3 d = mesh.positions[t[(k + 1) % 3]] - mesh.positions[t[k]];
+          const double length = std::sqrt(d.x * d.x + d.y * d.y + (in_space ? d.z * d.z : 0));
+          if (length > 0) all.push_back(length);
+        }
+      }
+      std::sort(all.begin(), all.end());
+      const EdgeLengths found = edge_lengths(mesh, in_space);
+      EXPECT_EQ(found.shortest, all.empty() ? 0 : all.front());
+      EXPECT_EQ(found.median, all.empty() ? 0 : all[(all.size() - 1) / 2]);
+      if (all.empty()) continue;
+      const Vec3 d = mesh.positions[found.shortest_vertices[1]] - mesh.positions[found.shortest_vertices[0]];
+      EXPECT_EQ(std::sqrt(d.x * d.x + d.y * d.y + (in_space ? d.z * d.z : 0)), found.shortest);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::oracle

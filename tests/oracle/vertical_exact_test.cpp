@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <CGAL/Exact_rational.h>
@@ -44,8 +46,9 @@ Polygon clipped(const Polygon& polygon, Function function) {
 }
 
 struct ExactFigures {
-  Rational max = 0, certain_max = 0, area = 0, square = 0, absolute = 0;
+  Rational max = 0, certain_max = 0, area = 0, square = 0, absolute = 0, samples_max = 0;
 };
+using Marks = std::vector<std::uint8_t>;  ///< empty: every sample holds data
 
 Rational absolute(const Rational& value) { return value < 0 ? Rational(-value) : value; }
 
@@ -61,12 +64,42 @@ void integrate(const Polygon& polygon, Rational& area, Rational& first, Rational
   }
 }
 
+bool cell_has_data(const Terrain& terrain, const Marks& has_data, int i, int j) {
+  if (i < 0 || j < 0 || i + 1 >= terrain.columns || j + 1 >= terrain.rows) return false;
+  if (has_data.empty()) return true;
+  return has_data[terrain.index(i, j)] != 0 && has_data[terrain.index(i + 1, j)] != 0 &&
+         has_data[terrain.index(i, j + 1)] != 0 && has_data[terrain.index(i + 1, j + 1)] != 0;
+}
+
+/// The triangle's height over a sample, less the sample's, if it lies inside or on the rim: by Cramer's rule.
+void visit_sample(const Polygon& t, int i, int j, double height, ExactFigures& figures) {
+  std::array<Rational, 3> share;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point &p = t[(k + 1) % 3], &q = t[(k + 2) % 3];
+    share[k] = (q.x - p.x) * (j - p.y) - (q.y - p.y) * (i - p.x);
+    if (share[k] < 0) return;
+  }
+  const Rational z =
+      (share[0] * t[0].z + share[1] * t[1].z + share[2] * t[2].z) / (share[0] + share[1] + share[2]);
+  figures.samples_max = std::max<Rational>(figures.samples_max, absolute(z - height));
+}
+
 /// All figures of meshes in units of cells, heights as they are.
-ExactFigures exact_figures(const std::vector<Polygon>& triangles, const Terrain& terrain) {
+ExactFigures exact_figures(const std::vector<Polygon>& triangles, const Terrain& terrain,
+                           const Marks& has_data) {
   ExactFigures figures;
   for (const Polygon& triangle : triangles) {
+    for (int j = 0; j < terrain.rows; ++j) {
+      for (int i = 0; i < terrain.columns; ++i) {
+        if (cell_has_data(terrain, has_data, i, j) || cell_has_data(terrain, has_data, i - 1, j) ||
+            cell_has_data(terrain, has_data, i, j - 1) || cell_has_data(terrain, has_data, i - 1, j - 1)) {
+          visit_sample(triangle, i, j, terrain.z(i, j), figures);
+        }
+      }
+    }
     for (int j = 0; j + 1 < terrain.rows; ++j) {
       for (int i = 0; i + 1 < terrain.columns; ++i) {
+        if (!cell_has_data(terrain, has_data, i, j)) continue;
         Polygon cell;
         for (const Point& p : triangle) cell.push_back({p.x - i, p.y - j, p.z});
         cell = clipped(cell, [](const Point& p) { return p.x; });
@@ -112,7 +145,7 @@ ExactFigures exact_figures(const std::vector<Polygon>& triangles, const Terrain&
   return figures;
 }
 
-void expect_exact(const Mesh& mesh, const Terrain& terrain, double scale_factor) {
+void expect_exact(const Mesh& mesh, const Terrain& terrain, double scale_factor, const Marks& has_data = {}) {
   std::vector<Polygon> triangles;
   for (const auto& triangle : mesh.triangles) {
     Polygon polygon;
@@ -123,17 +156,20 @@ void expect_exact(const Mesh& mesh, const Terrain& terrain, double scale_factor)
     }
     triangles.push_back(polygon);
   }
-  const ExactFigures exact = exact_figures(triangles, terrain);
-  const VerticalError error = vertical_error(mesh, terrain);
+  const ExactFigures exact = exact_figures(triangles, terrain, has_data);
+  const VerticalError error = vertical_error_where_data(mesh, terrain, has_data);
   if (exact.area == 0) {  // beside the grid, or touching its rim: no domain in common
     EXPECT_EQ(error.area_m2, 0);
     EXPECT_EQ(error.max, 0);
+    EXPECT_EQ(error.samples_max, 0);
     return;
   }
   const double bound_m =
       scale_factor * kVerticalRoundingFactor * 0x1p-53 * test::height_range_m(mesh, terrain);
   EXPECT_NEAR(error.max, CGAL::to_double(exact.max), bound_m);
   EXPECT_NEAR(error.certain_max, CGAL::to_double(exact.certain_max), bound_m);
+  EXPECT_NEAR(error.samples_max, CGAL::to_double(exact.samples_max), bound_m);
+  EXPECT_LE(error.samples_max, error.certain_max);
   const double area = CGAL::to_double(exact.area);
   // Rounded corners of pieces shift areas by a few 2⁻⁵³ of a cell times the number of pieces: below 10⁻¹³
   // cells here.
@@ -186,6 +222,58 @@ TEST(VerticalExact, MeshesOfManyTrianglesMatchRationals) {
     Mesh grid = test::grid_mesh(terrain, [&](int, int) { return random.below(2) == 0; });
     for (Vec3& p : grid.positions) p.z += random.between(-1, 1);
     expect_exact(grid, terrain, 1);
+  }
+}
+
+TEST(VerticalExact, HolesAreLeftOutAsByRationals) {
+  // Meshes without gaps over the whole grid, so that what one triangle has on the rim of a hole its neighbour
+  // has, too.
+  Random random(26);
+  for (int round = 0; round < 60; ++round) {
+    const Terrain terrain = test::random_terrain(6, 5, 1, random.bits());
+    Marks has_data(terrain.heights_m.size(), 1);
+    Terrain holed = terrain;  // a hole's placeholder is never looked at
+    for (std::uint64_t holes = 1 + random.below(8); holes > 0; --holes) {
+      const std::size_t k = random.below(has_data.size());
+      has_data[k] = 0;
+      holed.heights_m[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+    Mesh fan = test::two_triangles(terrain, [&](double, double) { return random.between(100, 120); });
+    fan.positions.push_back({random.between(0.5, 4.5), random.between(0.5, 3.5), random.between(100, 120)});
+    if (round % 2 == 0) fan.positions.back() = {2, 3, 90};  // on a sample
+    fan.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    expect_exact(fan, terrain, 1, has_data);
+    Mesh grid = test::grid_mesh(terrain, [&](int, int) { return random.below(2) == 0; });
+    for (Vec3& p : grid.positions) p.z += random.between(-1, 1);
+    expect_exact(grid, terrain, 1, has_data);
+    for (const Mesh& mesh : {fan, grid}) {
+      const VerticalError error = vertical_error_where_data(mesh, terrain, has_data);
+      EXPECT_EQ(error, vertical_error_where_data(mesh, holed, has_data));
+      std::size_t cells = 0;
+      for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 5; ++i) cells += cell_has_data(terrain, has_data, i, j) ? 1 : 0;
+      }
+      EXPECT_NEAR(error.area_m2, static_cast<double>(cells), 1e-13);
+    }
+    ASSERT_FALSE(HasFailure()) << round;
+  }
+}
+
+TEST(VerticalExact, ThinTrianglesMissNoSampleOnTheirEdges) {
+  // Every edge of the fan runs through samples; its triangles are slivers, so clipping alone decides by
+  // rounded corners which of them a sample on an edge belongs to.
+  const Terrain terrain = test::random_terrain(13, 9, 1, 27);
+  Random random(28);
+  for (int round = 0; round < 40; ++round) {
+    Mesh fan;
+    fan.positions.push_back({0, 0, 110});
+    const int over = 2 + static_cast<int>(random.below(5)), up = 1 + static_cast<int>(random.below(4));
+    for (int k = -3; k <= 3; ++k) {
+      const double aside = k * 0.05;
+      fan.positions.push_back({2.0 * over - aside * up, 2.0 * up + aside * over, random.between(90, 130)});
+    }
+    for (std::uint32_t k = 1; k < 7; ++k) fan.triangles.push_back({0, k, k + 1});
+    expect_exact(fan, terrain, 1e2);
   }
 }
 

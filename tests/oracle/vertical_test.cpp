@@ -6,7 +6,10 @@
 
 #include "oracle/vertical.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -68,6 +71,8 @@ TEST(Vertical, FlatMeshOverASpikeMeasuresTheTent) {
   const VerticalError error = vertical_error(two_triangles(terrain, at_zero), terrain);
   EXPECT_EQ(error.max, 7);
   EXPECT_EQ(error.certain_max, 7);
+  EXPECT_EQ(error.samples_max, 7);
+  EXPECT_EQ(error.samples_at, (Vec2{10, 6}));
   EXPECT_EQ(error.at, (Vec2{10, 6}));
   EXPECT_NEAR(error.mean, 7.0 / 64, kSumTolerance);
   EXPECT_NEAR(error.rms, std::sqrt(0.5 * 49 / 64), kSumTolerance);
@@ -124,6 +129,72 @@ TEST(Vertical, ErrorBetweenSamplesIsFoundWhereSamplesAgree) {
   EXPECT_EQ(error.certain_max, 4);
   EXPECT_EQ(error.at, (Vec2{10, 5}));
   EXPECT_EQ(error.certain_at, (Vec2{10, 5}));
+  EXPECT_EQ(error.samples_max, 0) << "the maker's bound holds where he looked";
+}
+
+TEST(Vertical, ErrorAtSamplesIsToldFromTheLargerOneBetweenThem) {
+  // The same with one sample of the middle pulled down by 1 m: 3 m short of what is between them.
+  const Terrain terrain = make_terrain(3, 2, 10, [](int i, int j) {
+    return i == 1 ? (j == 1 ? -1.0 : 0.0) : (i == 0) == (j == 0) ? 4.0 : -4.0;
+  });
+  Mesh mesh;
+  mesh.positions = {terrain.point(0, 0), terrain.point(2, 0), terrain.point(2, 1), terrain.point(0, 1)};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const VerticalError error = vertical_error(mesh, terrain);
+  EXPECT_EQ(error.max, 4.5);
+  EXPECT_EQ(error.certain_max, 4.5);
+  EXPECT_EQ(error.samples_max, 1);
+  EXPECT_EQ(error.samples_at, (Vec2{10, 10}));
+}
+
+TEST(Vertical, ErrorAtASampleInsideASmallTriangleIsFound) {
+  // No half of a cell lies inside, each is cut twice; and a thin one over the same sample.
+  const Terrain terrain = make_terrain(5, 5, 1, [](int i, int j) { return i == 2 && j == 2 ? -6.0 : 0.0; });
+  for (const double half_height : {0.3, 0.02}) {
+    Mesh mesh;
+    mesh.positions = {{1.6, 2 - half_height, 0}, {2.4, 2 - half_height, 0}, {2, 2 + half_height, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const VerticalError error = vertical_error(mesh, terrain);
+    EXPECT_NEAR(error.samples_max, 6, kVerticalRoundingFactor * 0x1p-53 * 6) << half_height;
+    EXPECT_EQ(error.samples_at, (Vec2{2, 2}));
+  }
+}
+
+TEST(Vertical, MeshBetweenSamplesHasNoErrorAtThem) {
+  const Terrain terrain = make_terrain(5, 5, 1, flat);
+  Mesh mesh;
+  mesh.positions = {{1.1, 1.1, 3}, {1.9, 1.1, 3}, {1.9, 1.9, 3}};
+  mesh.triangles = {{0, 1, 2}};
+  const VerticalError error = vertical_error(mesh, terrain);
+  EXPECT_EQ(error.max, 3);
+  EXPECT_EQ(error.samples_max, 0);
+}
+
+TEST(Vertical, WhereASampleHoldsNoDataFourCellsAreNotJudged) {
+  // The greatest error stands beside the hole, a lesser one elsewhere; both triangles are large.
+  Terrain terrain = make_terrain(9, 9, 2, [](int i, int j) {
+    return i == 4 && j == 5 ? 1000.0 : i == 5 && j == 5 ? 9.0 : i == 1 && j == 2 ? -7.0 : 0.0;
+  });
+  std::vector<std::uint8_t> has_data(terrain.heights_m.size(), 1);
+  const Mesh mesh = two_triangles(terrain, at_zero);
+  EXPECT_EQ(vertical_error_where_data(mesh, terrain, has_data), vertical_error(mesh, terrain));
+  has_data[terrain.index(4, 5)] = 0;
+  VerticalError error = vertical_error_where_data(mesh, terrain, has_data);
+  EXPECT_EQ(error.max, 9) << "a sample on the rim of what is judged";
+  EXPECT_EQ(error.at, (Vec2{10, 10}));
+  EXPECT_EQ(error.samples_max, 9);
+  EXPECT_EQ(error.area_m2, (64 - 4) * 4);
+  EXPECT_EQ(diagonal_ambiguity_m(terrain, has_data), 4.5);
+  has_data[terrain.index(5, 5)] = 0;
+  error = vertical_error_where_data(mesh, terrain, has_data);
+  EXPECT_EQ(error.max, 7);
+  EXPECT_EQ(error.at, (Vec2{2, 4}));
+  EXPECT_EQ(error.area_m2, (64 - 6) * 4);
+  EXPECT_EQ(diagonal_ambiguity_m(terrain, has_data), 3.5);
+  std::fill(has_data.begin(), has_data.end(), std::uint8_t{0});
+  EXPECT_EQ(vertical_error_where_data(mesh, terrain, has_data), VerticalError{});
+  has_data.pop_back();
+  EXPECT_THROW(vertical_error_where_data(mesh, terrain, has_data), InputError);
 }
 
 TEST(Vertical, PlantedSampleIsFoundAtItsPlaceToTheBit) {
@@ -261,9 +332,15 @@ TEST(Vertical, PowersOfTwoScaleExactly) {
     for (double& z : scaled.heights_m) z *= up;
     Mesh scaled_mesh = mesh;
     for (Vec3& p : scaled_mesh.positions) p = {p.x * plan, p.y * plan, p.z * up};
-    const VerticalError expected{
-        error.max * up,          error.certain_max * up,     error.rms * up, error.mean * up, error.at * plan,
-        error.certain_at * plan, error.area_m2 * plan * plan};
+    const VerticalError expected{error.max * up,
+                                 error.certain_max * up,
+                                 error.rms * up,
+                                 error.mean * up,
+                                 error.at * plan,
+                                 error.certain_at * plan,
+                                 error.area_m2 * plan * plan,
+                                 error.samples_max * up,
+                                 error.samples_at * plan};
     EXPECT_EQ(vertical_error(scaled_mesh, scaled), expected);
   }
 }
@@ -292,6 +369,8 @@ TEST(Vertical, OrderOfTrianglesAndCornersDoesNotMatter) {
     EXPECT_EQ(shuffled.certain_max, error.certain_max);
     EXPECT_EQ(shuffled.at, error.at);
     EXPECT_EQ(shuffled.certain_at, error.certain_at);
+    EXPECT_EQ(shuffled.samples_max, error.samples_max);
+    EXPECT_EQ(shuffled.samples_at, error.samples_at);
     EXPECT_NEAR(shuffled.rms, error.rms, kSumTolerance * error.rms);
     EXPECT_NEAR(shuffled.mean, error.mean, kSumTolerance * error.mean);
   }

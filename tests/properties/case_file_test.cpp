@@ -64,6 +64,7 @@ TEST(CaseFile, ReadsBackToTheSameBits) {
   c.input.options["depth_ratio"] = 0.1;
   c.input.options["cull"] = false;
   c.input.options["cluster_size"] = 5.0;
+  c.input.options["a key.with \"all\""] = 1.0;  // as a key's name stood, it did not read back
   const double awkward[] = {0.1,
                             -0.0,
                             1e300,

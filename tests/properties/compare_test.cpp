@@ -14,8 +14,10 @@
 
 #include "properties/compare/json_reader.h"
 #include "properties/verdict/verdict.h"
+#include "reports/check_report.h"
 #include "reports/report.h"
 #include "scenarios/error.h"
+#include "tests/reports/sample_check.h"
 #include "tests/reports/sample_verdict.h"
 
 namespace plumbline::compare {
@@ -213,7 +215,7 @@ const std::string kCheck = R"({ "schema": "plumbline.check/1", "verdict": "fault
     { "code": 302, "name": "crack", "kind": "gap", "mesh": 0, "other_mesh": 1, "at": [1, 2, 4], "gap_m": 0.5 } ],
   "seams": [ { "mesh": 0, "other_mesh": 1, "state": "covered by a skirt", "largest_gap_m": -0.5 } ],
   "vertical_m": { "max": 1.5, "certain_max": 1.25, "at": [3, 4] }, "terrain": { "file": "dem.tif", "declared": { "bound_m": 2, "everywhere": true } },
-  "headline": "2 cracks", "displacement_px": null, "image": { "camera": { "position": [1, 2, 3] }, "mesh_px": 7 } })";
+  "headline": "2 cracks", "displacement_px": null, "image": { "camera": { "position": [5, 2, 3] }, "mesh_px": 7 } })";
 
 std::string check_with(const std::string& from, const std::string& to) {
   std::string text = kCheck;
@@ -242,7 +244,7 @@ TEST(CompareChecks, WhatBecameWorse) {
       << "a signed gap is as bad as it is large";
   EXPECT_THAT(check_lines("true", "false"), ElementsAre("worse : terrain.declared.everywhere true → false"));
   EXPECT_THAT(check_lines("\"headline\": \"2", "\"headline\": \"3"), IsEmpty()) << "counts again, in words";
-  EXPECT_THAT(check_lines("\"position\": [1", "\"position\": [2"),
+  EXPECT_THAT(check_lines("\"position\": [5", "\"position\": [6"),
               ElementsAre(HasSubstr("changed : image.camera {")));
   EXPECT_THAT(check_lines("dem.tif", "other.tif"), ElementsAre("changed : terrain.file dem.tif → other.tif"));
   EXPECT_THAT(check_lines("the file's own", "metres"),
@@ -297,6 +299,26 @@ TEST(CompareChecks, OneMeshAgainstOneMeshWhateverTheirNames) {
   const Comparison comparison = compare_texts(one("x/before.ply", 1), one("y/after.ply", 2));
   EXPECT_THAT(lines(comparison), ElementsAre("worse : conformity.crack 1 → 2"));
   EXPECT_THAT(comparison.notes, ElementsAre("before.ply before is compared with after.ply after"));
+}
+
+TEST(CompareChecks, ReadsWhatCheckWrites) {
+  for (const verdict::CheckVerdict& check :
+       {sample::terrain_check(), sample::tiles_check(), sample::object_check()}) {
+    const std::string known = reports::check_json(check);
+    const Comparison same = compare_texts(known, known);
+    EXPECT_THAT(lines(same), IsEmpty());
+    EXPECT_EQ(same.subjects, check.meshes.size() + check.seams.size());
+    EXPECT_GT(same.same, 20u);
+    verdict::CheckVerdict worse = check;
+    worse.conformity.degenerate += 3;
+    worse.findings.push_back(
+        sample::check_finding(oracle::FindingCode::degenerate, "needle", 0, {1, 1, 1}, {7, 8, 9}));
+    worse.findings_total += 1;
+    const Comparison comparison = compare_texts(known, reports::check_json(worse));
+    EXPECT_THAT(lines(comparison),
+                testing::Contains(HasSubstr("201 degenerate: needle at 7, 8, 9 — → found")));
+    EXPECT_EQ(comparison.count(Change::worse), check.findings_total == check.findings.size() ? 3u : 2u);
+  }
 }
 
 TEST(CompareChecks, ResultsAreNotComparedWithChecks) {

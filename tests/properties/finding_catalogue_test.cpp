@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Each finding of the catalogue has a definition, an example that has exactly this finding, a near twin that
-// has none, and a picture drawn from the example. PLUMBLINE_WRITE_GOLDEN=1 writes pictures and
-// docs/findings.md anew.
+// has none, and a picture drawn from the example. PLUMBLINE_WRITE_GOLDEN=1 writes pictures, docs/findings.md
+// and those examples that are folders anew.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,8 +20,11 @@
 #include "oracle/image.h"
 #include "oracle/soundness.h"
 #include "properties/atlas/case_file.h"
+#include "properties/check/check.h"
 #include "scenarios/error.h"
 #include "scenarios/mesh_file/mesh_file.h"
+#include "scenarios/pose.h"
+#include "tests/properties/finding_corpus.h"
 
 namespace plumbline {
 namespace {
@@ -49,6 +52,7 @@ struct Judged {
   Mesh mesh;
   PlanDomain domain;
   std::vector<Finding> findings;
+  std::string picture{};  ///< drawn already
 };
 
 Judged judge_law(const fs::path& path) {
@@ -113,7 +117,41 @@ std::vector<Finding> judge_picture(const Mesh& mesh, const Mesh& truth) {
   return findings;
 }
 
+/// Everything in the folder as `plumbline check` takes it.
+Judged judge_together(const fs::path& folder) {
+  CheckRequest request;
+  const bool tiles = fs::exists(folder / "layer.json");
+  if (tiles) request.inputs = {folder};
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    if (path.filename() == "dem.asc") {
+      request.terrain = path;
+    } else if (path.filename() == "declared_m.txt") {
+      request.declared_m = std::stod(text_of(path));
+    } else if (path.filename() == "camera.txt") {
+      std::string line = text_of(path);
+      line.erase(line.find_last_not_of('\n') + 1);
+      const Pose pose = parse_pose(line);
+      request.camera = {pose.position, pose.look_at, pose.fov_y_deg, pose.width_px, pose.height_px};
+    } else if (!tiles) {
+      request.inputs.push_back(path);
+    }
+  }
+  std::sort(request.inputs.begin(), request.inputs.end());
+  const CheckOutcome outcome = check(request);
+  Judged judged;
+  for (const verdict::CheckFinding& found : outcome.verdict.findings) {
+    judged.findings.push_back(found.finding);
+    if (judged.findings.back().at == Vec3{}) judged.findings.back().at = found.at;
+  }
+  for (const verdict::CheckedMesh& mesh : outcome.verdict.meshes)
+    judged.mesh.triangles.resize(mesh.triangles);
+  if (!outcome.pictures.spots.empty()) judged.picture = outcome.pictures.spots.front().picture_svg;
+  return judged;
+}
+
 Judged judge_file(FindingCode code, const fs::path& path, const fs::path& twin) {
+  if (fs::is_directory(path)) return judge_together(path);
   if (path.extension() == ".toml") return judge_law(path);
   Judged judged{triangulate(read_mesh_file(path)), promised_square(), {}};
   if (code == FindingCode::bad_index && path != twin) judged.mesh.positions.pop_back();
@@ -129,6 +167,7 @@ Judged judge_file(FindingCode code, const fs::path& path, const fs::path& twin) 
 }
 
 std::string drawn(FindingCode code, const Judged& judged) {
+  if (!judged.picture.empty()) return judged.picture;
   const bool oblique = code == FindingCode::crack || code == FindingCode::non_manifold ||
                        code == FindingCode::error_over_threshold;
   // What it would say of itself is longer than the picture is wide.
@@ -180,6 +219,18 @@ INSTANTIATE_TEST_SUITE_P(Codes, FindingCatalogue, testing::ValuesIn(oracle::find
 
 TEST(FindingCataloguePage, IsWhatTheCodePrints) {
   expect_file(kRoot / "docs/findings.md", oracle::findings_manual());
+}
+
+TEST(FindingCataloguePage, FoldersAreWhatTheirGeneratorWrites) {
+  const fs::path folder = kRoot / "tests/data/findings";
+  const test::Files files = test::finding_corpus();
+  for (const auto& [name, bytes] : files) expect_file(folder / name, bytes);
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path name = entry.path().lexically_relative(folder);
+    if (entry.is_regular_file() && name.has_parent_path()) {
+      EXPECT_TRUE(files.contains(name.generic_string())) << name << " was not generated";
+    }
+  }
 }
 
 /// Files of the folder that belong to no code would rot unseen.

@@ -5,6 +5,7 @@
 #include "properties/selftest/selftest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -60,10 +61,10 @@ TEST(Selftest, JobsDoNotMoveAByteAndSeedsDo) {
 }
 
 TEST(Selftest, EveryOracleIsAskedAndEachHasAHarmlessTwin) {
-  std::set<std::string_view> faulty{"O1 conformity"}, sound{"O1 conformity"};
+  std::set<std::string_view> faulty{"O1 conformity", "O1 between meshes"}, sound = faulty;
   for (const faults::MeasuredFault& fault : faults::measured_faults())
     (fault.sound ? sound : faulty).insert(fault.oracle);
-  EXPECT_EQ(faulty.size(), 7U);  // O1 to O7
+  EXPECT_EQ(faulty.size(), 10U);  // O1 to O7, O1 between meshes, tiles, placement
   EXPECT_EQ(faulty, sound);
 }
 
@@ -106,6 +107,26 @@ TEST(Selftest, ABlindOracleFindsNothing) {
   judges.recovery = [](std::span<const std::pair<bool, bool>>) { return 0; };
   judges.keys = [](std::span<const std::uint64_t>, std::span<const std::uint64_t>) { return std::size_t{0}; };
   EXPECT_EQ(with(judges, "O5 stability").found, 0U);
+
+  judges = faults::real_judges();
+  judges.seam = [](const oracle::Border&, const oracle::Border&) { return std::optional(oracle::Seam{}); };
+  judges.slit = [](const oracle::Border&, const oracle::Border&, double) {
+    return std::optional<oracle::Slit>{};
+  };
+  const KindScore seams = with(judges, "O1 between meshes");
+  EXPECT_GT(seams.expected, 20U);
+  EXPECT_EQ(seams.found, 0U);
+  EXPECT_EQ(seams.false_alarms, 0U);
+
+  judges = faults::real_judges();
+  judges.tile = [](const QuantizedMesh&, const TileBounds&) { return std::vector<oracle::TileFinding>{}; };
+  EXPECT_EQ(with(judges, "tile format").found, 0U);
+
+  judges = faults::real_judges();
+  judges.placement = [](std::span<const Vec3>, const Terrain&) {
+    return std::optional<oracle::Misplacement>{};
+  };
+  EXPECT_EQ(with(judges, "placement").found, 0U);
 }
 
 TEST(Selftest, AWrongPlaceIsMisplaced) {
@@ -130,6 +151,28 @@ TEST(Selftest, AWrongPlaceIsMisplaced) {
   const KindScore vertical = with(judges, "O2 vertical error");
   EXPECT_EQ(vertical.found, 0U);
   EXPECT_EQ(vertical.misplaced, vertical.expected);
+
+  judges = faults::real_judges();
+  judges.seam = [](const oracle::Border& a, const oracle::Border& b) {
+    std::optional<oracle::Seam> seam = oracle::compare_borders(a, b);
+    if (!seam) return seam;
+    for (oracle::SeamGap& gap : seam->gaps) gap.at.x += 1e6;
+    return seam;
+  };
+  EXPECT_GT(with(judges, "O1 between meshes").misplaced, 20U);
+}
+
+TEST(Selftest, BordersThatAreOffByAnUlpAreHeard) {
+  faults::Judges judges = faults::real_judges();
+  judges.border = [](const Mesh& mesh) {
+    oracle::Border border = oracle::border_of(mesh, oracle::take_walls_off(mesh), {});
+    for (oracle::BorderEdge& edge : border.edges) {
+      const double z = edge.height[0].low;
+      if (edge.vertices[0] % 2 == 0) edge.height[0].low = std::nextafter(z, z + 1);
+    }
+    return border;
+  };
+  EXPECT_GT(with(judges, "O1 between meshes").false_alarms, 0U);
 }
 
 TEST(Selftest, AnOracleThatCriesWolfIsHeard) {

@@ -71,7 +71,7 @@ inline verdict::FrameVerdict frame(const Behaviour& behaviour, double threshold_
   out.image.silhouette_pixels = static_cast<std::size_t>(error * 40);
   out.image.silhouette_max_px = error * 1.1;
   if (index > 0) out.pop_px = pixels(error * 0.8, 611000);
-  out.shape = {0.31, 0.82, 18.4, 0, 8, 5.98, 3.2};
+  out.shape = {0.31, 0.82, 18.4, 0, 8, 5.98, 0, 3.2};
   out.counters = {out.triangles * 2, out.triangles, 140, 133, 210, 190};
   const int t_vertices = static_cast<int>(behaviour.t_vertices * (swing > 1.05 ? threshold_px : 0));
   out.conformity.crack = static_cast<std::size_t>(t_vertices);

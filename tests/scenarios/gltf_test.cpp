@@ -186,6 +186,45 @@ TEST(Gltf, ReadsQuantizedPositions) {
   EXPECT_EQ(parts.mesh().positions[1].x, 127.0 / 255);
 }
 
+TEST(Gltf, TurnsNormalsByTheInverseTranspose) {
+  Parts parts;
+  parts.primitives = R"([{"attributes":{"POSITION":0,"NORMAL":2},"indices":1}])";
+  parts.index_accessor += R"(,{"bufferView":2,"componentType":5126,"count":4,"type":"VEC3"})";
+  parts.views =
+      R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12},{"buffer":0,"byteOffset":60,"byteLength":48}])";
+  parts.buffers = R"([{"byteLength":108}])";
+  parts.binary += raw<float>({0, 0, 1, 1, 0, 0, 3, 4, 0, 0, 0, 0});
+  EXPECT_EQ(parts.mesh().format, "glTF");
+  EXPECT_THAT(parts.mesh().normals,
+              ElementsAre(Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{3 * 0.2, 4 * 0.2, 0}, Vec3{}));
+  // Twice as wide: the slope along x halves. (3/2, 4) has length √(9/4 + 16).
+  parts.nodes = R"([{"mesh":0,"scale":[2,1,1],"translation":[7,7,7]}])";
+  const Vec3 wide = parts.mesh().normals[2];
+  EXPECT_NEAR(wide.x, 1.5 / std::sqrt(18.25), 1e-15);
+  EXPECT_NEAR(wide.y, 4 / std::sqrt(18.25), 1e-15);
+  // Mirrored, a normal that points out still does.
+  parts.nodes = R"([{"mesh":0,"scale":[-1,1,1]}])";
+  EXPECT_EQ(parts.mesh().normals[1], (Vec3{-1, 0, 0}));
+  EXPECT_EQ(parts.mesh().normals[0], (Vec3{0, 0, 1}));
+  // Flat along z: no direction is left for what stood in the plane.
+  parts.nodes = R"([{"mesh":0,"scale":[1,1,0]}])";
+  EXPECT_EQ(parts.mesh().normals[1], (Vec3{}));
+  EXPECT_EQ(length(parts.mesh().normals[0]), 1);
+
+  // Not every vertex has one, or one that can be read: none, and the surface as before.
+  parts.nodes = R"([{"mesh":0}])";
+  for (
+      const char* primitives :
+      {R"([{"attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0,"NORMAL":2},"indices":1}])",
+       R"([{"attributes":{"POSITION":0,"NORMAL":2},"indices":1},{"attributes":{"POSITION":0,"NORMAL":0},"indices":1}])",
+       R"([{"attributes":{"POSITION":0,"NORMAL":1},"indices":1},{"attributes":{"POSITION":0,"NORMAL":1},"indices":1}])",
+       R"([{"attributes":{"POSITION":0,"NORMAL":77},"indices":1},{"attributes":{"POSITION":0,"NORMAL":77},"indices":1}])"}) {
+    parts.primitives = primitives;
+    EXPECT_TRUE(parts.mesh().normals.empty()) << primitives;
+    EXPECT_EQ(parts.mesh().polygons(), 4U);
+  }
+}
+
 TEST(Gltf, ReadsBuffersInTextAndBesideTheModel) {
   Parts parts;
   // The square's first three corners as base64.

@@ -3,6 +3,7 @@
 #include "scenarios/mesh_file/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
 
@@ -91,6 +92,74 @@ TEST(MeshFile, StlWeldsEqualCornersInBothForms) {
   expect_one_triangle(parse_mesh(bytes, "a.stl"), 2.5);
 }
 
+TEST(MeshFile, PlyAndObjNormalsWhereEveryVertexHasOne) {
+  const std::string vertices =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float ny\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const MeshFile with = parse_mesh(
+      vertices + "property float nz\n" + faces + "0.5 0 0 0 0.25 1\n0 1 0 0 0 1\n0 0 1 2 0 -1\n3 0 1 2\n",
+      "a.ply");
+  expect_one_triangle(with, 2);
+  EXPECT_EQ(with.normals, (std::vector<Vec3>{{0.5, 0.25, 1}, {0, 0, 1}, {0, 0, -1}}));
+  const MeshFile without =
+      parse_mesh(vertices + faces + "0.5 0 0 0 0.25\n0 1 0 0 0\n0 0 1 2 0\n3 0 1 2\n", "a.ply");
+  expect_one_triangle(without, 2);
+  EXPECT_TRUE(without.normals.empty());
+
+  const auto obj = [](const std::string& polygons) {
+    return parse_mesh(
+               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nvn 0 0 1\nvn 0 1 0\nvn 0 0 1\n" + polygons,
+               "a.obj")
+        .normals;
+  };
+  const Vec3 up{0, 0, 1}, north{0, 1, 0};
+  EXPECT_EQ(obj("f 1//1 2//2 3//1\nf 1/7/1 3//3 4//-2\n"), (std::vector<Vec3>{up, north, up, north, {}}))
+      << "by value: 3 has normals 1 and 3, which are equal; the last vertex is not used";
+  EXPECT_TRUE(obj("f 1//1 2//2 3//1\nf 1//1 3//2 4//1\n").empty()) << "two normals for vertex 3";
+  EXPECT_TRUE(obj("f 1//1 2//2 3\n").empty());
+  EXPECT_TRUE(obj("f 1//1 2//2 3//4\n").empty());
+  EXPECT_TRUE(obj("f 1//1 2//2 3//-4\n").empty());
+  EXPECT_TRUE(obj("f 1//1 2//2 3//x\n").empty());
+  EXPECT_TRUE(obj("f 1 2 3\n").empty());
+}
+
+TEST(MeshFile, SaysItsFormat) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
+  EXPECT_EQ(parse_mesh(ply, "a").format, "PLY");
+  EXPECT_EQ(parse_mesh("", "a.obj").format, "OBJ");
+  EXPECT_EQ(parse_mesh("OFF 0 0 0", "a").format, "OFF");
+  EXPECT_EQ(parse_mesh("solid\nendsolid\n", "a.stl").format, "STL");
+  EXPECT_EQ(parse_mesh(std::string(84, '\0'), "a.stl").format, "STL");
+}
+
+TEST(MeshFile, StlOfManyVerticesIsTheLattice) {
+  constexpr std::uint32_t n = 300;
+  std::string bytes(80, ' ');
+  put(bytes, 2 * n * n);
+  for (std::uint32_t f = 0; f < 2 * n * n; ++f) {
+    const std::uint32_t i = f / 2 % n, j = f / 2 / n;
+    bytes += std::string(12, '\0');
+    for (const auto& [x, y] :
+         f % 2 == 0 ? std::array<std::array<std::uint32_t, 2>, 3>{{{i, j}, {i + 1, j}, {i, j + 1}}}
+                    : std::array<std::array<std::uint32_t, 2>, 3>{{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}}) {
+      put(bytes, static_cast<float>(x));
+      put(bytes, static_cast<float>(y));
+      put(bytes, x == 0 ? -0.F : 0.F);
+    }
+    bytes += std::string(2, '\0');
+  }
+  const MeshFile mesh = parse_mesh(bytes, "a.stl");
+  EXPECT_EQ(mesh.positions.size(), (n + 1) * (n + 1));
+  for (std::size_t k = 0; k < mesh.corners.size(); ++k) {
+    float x = 0;
+    std::memcpy(&x, bytes.data() + 84 + 50 * (k / 3) + 12 + 12 * (k % 3), sizeof x);
+    ASSERT_EQ(mesh.positions[mesh.corners[k]].x, static_cast<double>(x));
+  }
+}
+
 TEST(MeshFile, BadInputIsOneClearLine) {
   const std::string ply = "ply\nformat ascii 1.0\nelement vertex ";
   const std::string xyz = "\nproperty float x\nproperty float y\nproperty float z\n";
@@ -109,6 +178,7 @@ TEST(MeshFile, BadInputIsOneClearLine) {
               HasSubstr("1 vertices instead of 3"));
   EXPECT_THAT(message("PK", "a.zip"), HasSubstr("PLY, OBJ, OFF, STL and glTF"));
   EXPECT_THROW(read_mesh_file("/no/such/file.ply"), InputError);
+  EXPECT_THROW(read_mesh_file("/dev/zero"), InputError);
 }
 
 double area_in_plan(const Mesh& mesh, bool& all_upright) {

@@ -97,6 +97,8 @@ TEST(TomlReader, SyntaxErrorsNameTheLine) {
   EXPECT_THAT(input_error([] { (void)parse_toml("d = 2020-01-01\n", "f.toml"); }),
               testing::HasSubstr("is a date or time"));
   EXPECT_THAT(input_error([] { (void)parse_toml(std::string(100'000, '['), "f.toml"); }),
+              testing::HasSubstr("deeper than 128"));
+  EXPECT_THAT(input_error([] { (void)parse_toml(std::string(100, '['), "f.toml"); }),
               testing::HasSubstr("not valid TOML"));
 }
 

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: The plumbline authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshes that should fit together: seams, slits, overlaps and holes between them.
+#include "properties/check/between.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumbline::checking {
+namespace {
+
+using oracle::Finding;
+using oracle::FindingCode;
+using oracle::Severity;
+using verdict::SeamState;
+
+/// A border that follows its neighbour's within this share of its own median edge was meant to meet it.
+constexpr double kSlitShare = 0.25;
+
+/// Pairs of subjects (tiles have a way of their own) whose boxes in plan meet or nearly do, in order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const std::vector<Subject>& subjects,
+                                                                const std::vector<double>& reach) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t k = 0; k < subjects.size(); ++k) {
+    const Subject& subject = subjects[k];
+    if (subject.facts.terrain && !subject.tile && !subject.border.edges.empty()) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return subjects[a].border.low.x < subjects[b].border.low.x;
+  });
+  const double widest = reach.empty() ? 0 : *std::max_element(reach.begin(), reach.end());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const oracle::Border& a = subjects[order[i]].border;
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const oracle::Border& b = subjects[order[j]].border;
+      if (b.low.x > a.high.x + widest) break;
+      const double within = std::max(reach[order[i]], reach[order[j]]);
+      if (b.low.x > a.high.x + within || b.low.y > a.high.y + within || a.low.y > b.high.y + within) continue;
+      out.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double median_border_edge(const oracle::Border& border) {
+  std::vector<double> lengths;
+  for (const oracle::BorderEdge& edge : border.edges) {
+    const Vec2 d = edge.plan[1] - edge.plan[0];
+    lengths.push_back(std::sqrt(d.x * d.x + d.y * d.y));
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>((lengths.size() - 1) / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+class Between {
+ public:
+  explicit Between(Examination& exam) : exam_(exam) {}
+
+  void judge() {
+    std::vector<double> reach;
+    for (const Subject& subject : exam_.subjects)
+      reach.push_back(kSlitShare * median_border_edge(subject.border));
+    for (const auto& [a, b] : neighbours(exam_.subjects, reach)) {
+      const auto seam = oracle::compare_borders(exam_.subjects[a].border, exam_.subjects[b].border);
+      if (seam) {
+        report_seam(exam_, {a, b, exam_.frame.unit_m, 0, true}, *seam);
+        if (!(seam->length > 0)) continue;
+      }
+      look_for_slit(a, b, std::min(reach[a], reach[b]), seam.has_value());
+    }
+    judge_cover();
+  }
+
+ private:
+  void look_for_slit(std::uint32_t a, std::uint32_t b, double within, bool meet_elsewhere) {
+    const auto& first = exam_.subjects[a].border;
+    const auto& second = exam_.subjects[b].border;
+    auto slit = oracle::find_slit(first, second, within);
+    std::uint32_t of = a;
+    if (auto other = oracle::find_slit(second, first, within);
+        other && (!slit || other->width > slit->width)) {
+      slit = other;
+      of = b;
+    }
+    if (!slit) return;
+    Finding finding;
+    finding.code = FindingCode::slit;
+    finding.severity = meet_elsewhere && slit->vertices < 2 ? Severity::hazard : Severity::fault;
+    finding.at = slit->at;
+    finding.distance_m = slit->width;
+    finding.vertices = {slit->vertex};
+    verdict::CheckFinding out = as_check_finding(finding, exam_.subjects[of], of, exam_.frame);
+    out.other_mesh = of == a ? b : a;
+    out.message = fmt::format(
+        "{} border {} within {} of the other mesh's border without meeting it; a slit (or an overlap) of "
+        "that width shows",
+        slit->vertices, slit->vertices == 1 ? "vertex passes" : "vertices pass",
+        length_text(out.finding.distance_m));
+    exam_.between.push_back(std::move(out));
+  }
+
+  /// Overlaps and holes that no single mesh has: the sum of all meshes, its outline free.
+  void judge_cover() {
+    std::size_t triangles = 0, meshes = 0;
+    Mesh all;
+    std::vector<std::size_t> first_vertex, first_triangle;
+    std::vector<std::uint32_t> of;
+    for (std::uint32_t k = 0; k < exam_.subjects.size(); ++k) {
+      const Subject& subject = exam_.subjects[k];
+      if (!subject.facts.terrain || subject.tile) continue;
+      const Mesh& surface = subject.sheet.surface;
+      if (all.positions.size() + surface.positions.size() > std::numeric_limits<std::uint32_t>::max() / 2)
+        return;
+      first_vertex.push_back(all.positions.size());
+      first_triangle.push_back(all.triangles.size());
+      of.push_back(k);
+      const auto base = static_cast<std::uint32_t>(all.positions.size());
+      all.positions.insert(all.positions.end(), surface.positions.begin(), surface.positions.end());
+      for (auto t : surface.triangles) {
+        for (std::uint32_t& v : t) v = v < surface.positions.size() ? v + base : 0xffffffffu;
+        all.triangles.push_back(t);
+      }
+      triangles += surface.triangles.size();
+      ++meshes;
+    }
+    if (meshes < 2 || triangles == 0) return;
+    const oracle::ConformityReport report = oracle::check_conformity_without_outline(all);
+    const auto owner = [&](const std::vector<std::size_t>& starts, std::size_t index) {
+      return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), index) -
+                                      starts.begin()) -
+             1;
+    };
+    for (Finding finding : report.findings) {
+      if (finding.code != FindingCode::hole && finding.code != FindingCode::overlap &&
+          finding.code != FindingCode::nothing_judged && finding.code != FindingCode::duplicate)
+        continue;
+      std::vector<std::size_t> owners;
+      for (const std::uint32_t v : finding.vertices) owners.push_back(owner(first_vertex, v));
+      for (const std::uint32_t t : finding.triangles) owners.push_back(owner(first_triangle, t));
+      std::sort(owners.begin(), owners.end());
+      owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+      if (owners.size() < 2 && finding.code != FindingCode::nothing_judged) continue;
+      const std::uint32_t a = owners.empty() ? of[0] : of[owners[0]];
+      // Indices of the sum mean nothing to anybody.
+      finding.vertices.clear();
+      finding.triangles.clear();
+      verdict::CheckFinding out = as_check_finding(finding, exam_.subjects[a], a, exam_.frame);
+      if (owners.size() > 1) out.other_mesh = of[owners[1]];
+      if (finding.code == FindingCode::hole) ++exam_.verdict.conformity.hole;
+      if (finding.code == FindingCode::overlap) ++exam_.verdict.conformity.overlap;
+      if (finding.code == FindingCode::duplicate) ++exam_.verdict.conformity.duplicate;
+      exam_.between.push_back(std::move(out));
+    }
+  }
+
+  Examination& exam_;
+};
+
+std::string pair_of(const Examination& exam, const Pair& pair) {
+  return fmt::format("{} and {}", exam.subjects[pair.first].facts.name,
+                     exam.subjects[pair.second].facts.name);
+}
+
+std::string gap_message(const Examination& exam, const Pair& pair, const oracle::SeamGap& gap, double gap_m) {
+  const std::string& first = exam.subjects[pair.first].facts.name;
+  const std::string& second = exam.subjects[pair.second].facts.name;
+  if (gap.sign == 0)
+    return fmt::format(
+        "{} has a vertex here that {} lacks; at the edge's height, but a rasteriser shows pixels "
+        "through it{}",
+        gap.of_first ? first : second, gap.of_first ? second : first,
+        gap.covered ? ", of which a skirt hides most" : "");
+  const std::string& higher = gap.sign > 0 ? first : second;
+  const std::string& lower = gap.sign > 0 ? second : first;
+  const std::string tail = gap.covered ? "its skirt hides the gap"
+                                       : fmt::format("a skirt of {} below the border of {} would hide it",
+                                                     sufficient_length_text(std::fabs(gap_m)), higher);
+  const std::string why = gap.t_junction
+                              ? fmt::format(" at a vertex that {} lacks", gap.of_first ? second : first)
+                              : std::string();
+  return fmt::format("{} stands {} above {}{}; {}", higher, length_text(std::fabs(gap_m)), lower, why, tail);
+}
+
+/// How many gaps of one seam are listed; the counts are complete.
+constexpr std::size_t kGapsListed = 4;
+
+}  // namespace
+
+void report_seam(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
+  Subject& first = exam.subjects[pair.first];
+  Subject& second = exam.subjects[pair.second];
+  const double unit = pair.height_unit_m;
+  verdict::SeamVerdict out;
+  out.mesh = pair.first;
+  out.other_mesh = pair.second;
+  out.state = seam.watertight()     ? SeamState::watertight
+              : seam.uncovered == 0 ? SeamState::covered_by_skirt
+                                    : SeamState::open;
+  out.length_m = seam.length * (first.tile ? 1 : unit);
+  out.t_junctions = seam.t_junctions;
+  out.cracks = seam.cracks;
+  out.largest_gap_m = seam.largest_gap_m * unit;
+  out.mean_gap_m = seam.mean_gap_m * unit;
+  out.mean_abs_gap_m = seam.mean_abs_gap_m * unit;
+  out.least_skirt_m = seam.first_over_second_m * unit;
+  out.least_skirt_other_m = seam.second_over_first_m * unit;
+  out.quantum_m = pair.quantum_m;
+  out.normal_max_deg = seam.normals > 0 ? seam.normal_max_deg : std::numeric_limits<double>::quiet_NaN();
+  out.largest_at = pair.to_file ? pair.to_file(seam.largest_at) : exam.frame.to_file(seam.largest_at);
+  out.must_meet = pair.must_meet;
+  if (first.tile) out.level = first.tile->level;
+  if (second.tile) out.other_level = second.tile->level;
+  exam.verdict.seams.push_back(out);
+  first.facts.least_skirt_m = std::max(first.facts.least_skirt_m, out.least_skirt_m);
+  second.facts.least_skirt_m = std::max(second.facts.least_skirt_m, out.least_skirt_other_m);
+  if (pair.must_meet) {
+    exam.verdict.conformity.t_junction += seam.t_junctions;
+    exam.verdict.conformity.crack += seam.cracks;
+  }
+  list_gaps(exam, pair, seam);
+  judge_normals(exam, pair, seam);
+}
+
+void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
+  const double unit = pair.height_unit_m;
+  std::vector<const oracle::SeamGap*> worst;
+  for (const oracle::SeamGap& gap : seam.gaps) worst.push_back(&gap);
+  std::stable_sort(worst.begin(), worst.end(), [](const auto* a, const auto* b) {
+    if (a->covered != b->covered) return !a->covered;
+    return std::fabs(a->gap_m) > std::fabs(b->gap_m);
+  });
+  if (!pair.must_meet) {
+    // Tiles of two levels have T-junctions by construction, and gaps wherever the ground is not flat: the
+    // worst says what there is to say.
+    worst.resize(std::min<std::size_t>(worst.size(), 1));
+    if (!worst.empty() && worst.front()->sign == 0) worst.clear();
+  }
+  exam.verdict.findings_total += worst.size() - std::min(worst.size(), kGapsListed);
+  for (std::size_t k = 0; k < std::min(worst.size(), kGapsListed); ++k) {
+    const oracle::SeamGap& gap = *worst[k];
+    verdict::CheckFinding found;
+    Finding& finding = found.finding;
+    finding.code = gap.sign == 0 ? FindingCode::t_junction : FindingCode::crack;
+    const bool rounding = gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m;
+    // Rounding explains that two heights of one place differ, not that one of them is missing.
+    const bool excused = rounding && !gap.t_junction;
+    if (gap.sign != 0)
+      finding.kind = excused ? "quantization" : gap.t_junction ? "t_vertex" : "height_mismatch";
+    finding.severity = gap.covered || excused || !pair.must_meet ? Severity::hazard : Severity::fault;
+    finding.gap_m = gap.gap_m * unit;
+    finding.at = gap.at;
+    const bool vertex_of_second = gap.t_junction && !gap.of_first;
+    found.mesh = vertex_of_second ? pair.second : pair.first;
+    found.other_mesh = vertex_of_second ? pair.first : pair.second;
+    finding.vertices = {gap.vertex};
+    finding.triangles = {vertex_of_second ? gap.other_triangle : gap.triangle};
+    found.at = pair.to_file ? pair.to_file(gap.at) : exam.frame.to_file(gap.at);
+    found.message = gap_message(exam, pair, gap, finding.gap_m);
+    if (rounding)
+      found.message += fmt::format("; the gap is no more than the rounding of the two tiles' heights ({})",
+                                   length_text(pair.quantum_m));
+    if (!pair.must_meet)
+      found.message += "; tiles of two levels meet nowhere by themselves: --skirt says what the client adds";
+    exam.between.push_back(std::move(found));
+  }
+}
+
+void judge_normals(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
+  if (seam.normals == 0 || !(seam.normal_max_deg > kNormalSeamDeg)) return;
+  verdict::CheckFinding found;
+  found.finding.code = FindingCode::border_normal;
+  found.finding.severity = Severity::hazard;
+  found.finding.at = seam.normal_at;
+  found.mesh = pair.first;
+  found.other_mesh = pair.second;
+  found.at = pair.to_file ? pair.to_file(seam.normal_at) : exam.frame.to_file(seam.normal_at);
+  found.message = fmt::format(
+      "the normals of {} differ by {:.3g} degrees at a vertex that both have; the "
+      "border shows as a line of light",
+      pair_of(exam, pair), seam.normal_max_deg);
+  exam.between.push_back(std::move(found));
+}
+
+void judge_between(Examination& exam) {
+  Between(exam).judge();
+  judge_tiles_between(exam);
+  std::stable_sort(exam.verdict.seams.begin(), exam.verdict.seams.end(),
+                   [](const verdict::SeamVerdict& a, const verdict::SeamVerdict& b) {
+                     if (a.state != b.state) return a.state > b.state;
+                     return std::fabs(a.largest_gap_m) > std::fabs(b.largest_gap_m);
+                   });
+}
+
+}  // namespace plumbline::checking
