@@ -17,9 +17,7 @@
 namespace plumbline::checking {
 namespace {
 
-using oracle::Finding;
 using oracle::FindingCode;
-using oracle::Severity;
 
 /// How finely distances in space are certified, as a share of the reference's half diagonal.
 constexpr double kWithinShare = 1e-3;

@@ -21,7 +21,6 @@ namespace {
 
 using oracle::Finding;
 using oracle::FindingCode;
-using oracle::Severity;
 
 constexpr int kErrorMapPx = 1024;
 

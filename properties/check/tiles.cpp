@@ -23,7 +23,6 @@ namespace plumbline::checking {
 namespace {
 
 namespace fs = std::filesystem;
-using oracle::Finding;
 using oracle::FindingCode;
 using oracle::Severity;
 
@@ -66,6 +65,7 @@ class TileSeams {
       }
     }
     judge_balance();
+    report_lattice();
   }
 
  private:
@@ -209,6 +209,11 @@ class TileSeams {
       ++count;
     }
     if (first == nullptr) return;
+    const bool levels = tile(pair.first).level != tile(pair.second).level;
+    if (levels && lattice_borders_++ > 0) {
+      lattice_vertices_ += count;
+      return;
+    }
     verdict::CheckFinding found;
     found.finding.code = FindingCode::slit;
     found.finding.kind = "lattice";
@@ -218,13 +223,30 @@ class TileSeams {
     found.mesh = first->of_first ? pair.first : pair.second;
     found.other_mesh = first->of_first ? pair.second : pair.first;
     found.at = pair.to_file(first->at);
-    const int apart = std::abs(tile(pair.first).level - tile(pair.second).level);
+    if (levels) {
+      lattice_ = std::move(found);
+      lattice_vertices_ = count;
+      return;
+    }
     found.message =
-        fmt::format("{} {} the other tile's by one lattice step or less: {}", count,
-                    count == 1 ? "vertex misses" : "vertices miss",
-                    apart > 0 ? "the middle of a side, 16383.5, is no place of the coarser lattice"
-                              : "the two writers rounded one place differently");
+        fmt::format("{} the other tile's by one lattice step: the two writers rounded one place differently",
+                    vertices_miss(count));
     exam_.between.push_back(std::move(found));
+  }
+
+  static std::string vertices_miss(std::size_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "vertex misses" : "vertices miss");
+  }
+
+  /// Between levels it is so wherever a side is halved: told once, with the first place.
+  void report_lattice() {
+    if (!lattice_) return;
+    lattice_->message = fmt::format(
+        "{} the other tile's by one lattice step or less, on {} border{} between levels, here for one: the "
+        "middle of a "
+        "side, 16383.5, is no place of the coarser lattice",
+        vertices_miss(lattice_vertices_), lattice_borders_, lattice_borders_ == 1 ? "" : "s");
+    exam_.between.push_back(std::move(*lattice_));
   }
 
   /// A client draws the deepest tiles that there are: beside a tile without children lies one of its own
@@ -283,6 +305,9 @@ class TileSeams {
 
   Examination& exam_;
   std::map<Key, std::uint32_t> by_place_;
+  /// Near misses between levels: the first, how many vertices, on how many borders.
+  std::optional<verdict::CheckFinding> lattice_;
+  std::size_t lattice_vertices_ = 0, lattice_borders_ = 0;
 };
 
 }  // namespace

@@ -111,6 +111,10 @@ std::optional<Tally> draw_back(const Judges& judges, const Halves& halves, Rando
   Vec3 q = p;  // to the right, which is the second's side
   q.x += d.y / length * width;
   q.y -= d.x / length * width;
+  // Where the seam turns, that may lead along the seam: a T-junction, and no slit.
+  for (const SeamEdge& other : halves.seam) {
+    if (oracle::inside_segment(plan(other.at[0]), plan(other.at[1]), plan(q))) return std::nullopt;
+  }
   Mesh second = halves.second;
   move_to(second, p, q);
   const auto slit = judges.slit(judges.border(second), judges.border(halves.first), 2 * width);
@@ -181,7 +185,10 @@ std::optional<Tally> quantize(const Judges& judges, const Halves& halves, Random
   const auto seam = judges.seam(first, second);
   if (!fault) return tally(true, !seam || !seam->watertight(), false, false, false);
   const double step_m = (high - low) / kSteps;
-  return judge({plan(p), upwards ? -step_m : step_m, 0x1p-40 * step_m}, seam);
+  // Figures far above the rounding of the heights that they are made of are taken in double
+  // (oracle/seams.cpp).
+  const double within_m = 0x1p-46 * (std::fabs(low) + std::fabs(high));
+  return judge({plan(p), upwards ? -step_m : step_m, within_m}, seam);
 }
 
 /// Nothing but the cut.

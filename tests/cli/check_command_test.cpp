@@ -137,7 +137,7 @@ TEST_F(CheckCommand, ReportHasPagePicturesAndSpots) {
   for (const char* name : {"check.html", "check.json", "check.sarif", "check.txt"})
     EXPECT_TRUE(fs::is_regular_file(folder() / "report" / name)) << name;
   const std::string page = read_file(folder() / "report/check.html");
-  EXPECT_THAT(page, AllOf(StartsWith("<!doctype html>"), HasSubstr("</html>"), HasSubstr("--declared 5")));
+  EXPECT_THAT(page, AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("</html>"), HasSubstr("--declared 5")));
   EXPECT_FALSE(json::parse(read_file(folder() / "report/check.json")).empty());
   std::size_t spots = 0;
   for (const auto& entry : fs::directory_iterator(folder() / "report/spots")) {

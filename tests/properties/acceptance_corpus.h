@@ -95,14 +95,12 @@ inline void gap_exceeds_skirt(Files& files) {
   const TileGrid grid;
   const TileAddress coarse{9, 533, 383};
   const auto beside = [&](const std::string& name, int deeper, double bump, double dip) {
-    const int rows = 4 >> deeper;  // of the coarse tile, beside one of the fine ones
-    Tiles tiles{{coarse, exact_tile(grid, coarse, 4, 100, [](int, int r) { return 200 + 8.0 * r; })}};
+    Tiles tiles{{coarse, exact_tile(grid, coarse, 4, 100, [](int, int) { return 200.0; })}};
     for (std::uint32_t j = 0; j < 1U << deeper; ++j) {
       const TileAddress fine{9 + deeper, 534U << deeper, (383U << deeper) + j};
       tiles.emplace_back(fine, exact_tile(grid, fine, 4, 100, [&](int c, int r) {
-                           const double on_edge = 200 + 8.0 * rows * (static_cast<double>(j) + r / 4.0);
-                           const bool middle = c == 0 && r == (deeper == 1 ? 1 : 2);
-                           return on_edge + (middle && j == 1 ? bump : middle && j == 0 ? -dip : 0);
+                           const bool middle = c == 0 && r == 2;
+                           return 200 + (middle && j == 1 ? bump : middle && j == 0 ? -dip : 0);
                          }));
     }
     add_tiles(files, "05_gap_exceeds_skirt/" + name, tiles);
@@ -188,7 +186,7 @@ inline void transposed_matrix(Files& files) {
   files[folder + "refined_elsewhere_twin/mesh.ply"] = ply(refined_at(1, 3, 10, peak));
 }
 
-/// 9. A simplifier moved a vertex across an edge, and left a needle.
+/// 9. A simplifier moved a vertex across an edge, laid a triangle over others, and left a needle.
 inline void flipped_triangles(Files& files) {
   const auto make = [&](const std::string& name, Vec3 moved, double needle) {
     Mesh mesh = grid(4, 4, 10, [](int c, int r) { return 2.0 * c + r; });
@@ -200,6 +198,7 @@ inline void flipped_triangles(Files& files) {
     for (const auto& side :
          {std::array{10U, 11U}, std::array{11U, 15U}, std::array{15U, 14U}, std::array{14U, 10U}})
       mesh.triangles.push_back({side[0], side[1], middle});
+    if (needle < 1) mesh.triangles.push_back({2, 3, 6});
     files["09_flipped_triangles/" + name + "/mesh.obj"] = obj_bytes(mesh);
   };
   make("obj", {23, 12, 3}, 0.05);

@@ -107,9 +107,8 @@ TEST(CheckAcceptance, FilesAreWhatTheirGeneratorWrites) {
   EXPECT_LT(bytes, 200'000u);
   for (const auto& entry : fs::recursive_directory_iterator(kData)) {
     const std::string name = entry.path().lexically_relative(kData).generic_string();
-    if (entry.is_regular_file() && name != "README.md") {
-      EXPECT_TRUE(files.contains(name)) << name;
-    }
+    if (!entry.is_regular_file() || name == "README.md") continue;
+    EXPECT_TRUE(files.contains(name)) << name;
   }
 }
 
@@ -229,23 +228,21 @@ TEST(CheckAcceptance, Complaint05_GapExceedsTheSkirtBetweenLevels) {
   const CheckFinding* crack = find(verdict, FindingCode::crack, "t_vertex");
   ASSERT_NE(crack, nullptr);
   EXPECT_EQ(crack->finding.severity, Severity::fault);
-  // Rows of the finer tile stand on the coarser one's edge to half a step of its lattice.
-  constexpr double kHalfStepM = 1e-3;
-  EXPECT_NEAR(std::fabs(crack->finding.gap_m), 30, kHalfStepM);
-  EXPECT_THAT(crack->message, HasSubstr("a skirt of 30.1 m below the border of 11/2136/1533.terrain"));
+  EXPECT_DOUBLE_EQ(std::fabs(crack->finding.gap_m), 30);
+  EXPECT_THAT(crack->message, HasSubstr("a skirt of 30 m below the border of 11/2136/1533.terrain"));
   const auto skirt_of = [&](const std::string& name) {
     for (const verdict::CheckedMesh& mesh : verdict.meshes)
       if (mesh.file == name) return mesh.least_skirt_m;
     return -1.0;
   };
-  EXPECT_NEAR(skirt_of("11/2136/1533.terrain"), 30, kHalfStepM);
+  EXPECT_DOUBLE_EQ(skirt_of("11/2136/1533.terrain"), 30);
   EXPECT_DOUBLE_EQ(skirt_of("9/533/383.terrain"), 12);
-  EXPECT_NEAR(skirt_of("11/2136/1534.terrain"), 0, kHalfStepM);
-  EXPECT_THAT(said(verdict), HasSubstr("A skirt of 30.1 m below every border covers every gap"));
+  EXPECT_DOUBLE_EQ(skirt_of("11/2136/1534.terrain"), 0);
+  EXPECT_THAT(said(verdict), HasSubstr("A skirt of 30 m below every border covers every gap"));
 
-  asked.skirt_m = 30.1;
+  asked.skirt_m = 30;
   const CheckVerdict deep = judged(asked);
-  EXPECT_TRUE(deep.sound) << "30 m and half a step";
+  EXPECT_TRUE(deep.sound) << "30 m reach exactly";
   for (const verdict::SeamVerdict& one : deep.seams) EXPECT_NE(one.state, SeamState::open);
 
   CheckRequest twin = request("05_gap_exceeds_skirt/tiles_twin");
@@ -394,7 +391,7 @@ TEST(CheckAcceptance, Complaint11_DeclaredError) {
   EXPECT_EQ(verdict.terrain->samples_at, (Vec2{30, 50}));
   const CheckFinding* bound = find(verdict, FindingCode::declared_error, "samples");
   ASSERT_NE(bound, nullptr);
-  EXPECT_EQ(bound->at, (Vec3{30, 50, 0}));
+  EXPECT_EQ(bound->at, (Vec3{30, 50, 63}));
   EXPECT_THAT(said(verdict), HasSubstr("the declared 5 m does not hold: 7.25 m at 30, 50"));
 
   const CheckVerdict between = over(folder + "between.ply", folder + "dem_twin.asc", 5);

@@ -215,7 +215,7 @@ const std::string kCheck = R"({ "schema": "plumbline.check/1", "verdict": "fault
     { "code": 302, "name": "crack", "kind": "gap", "mesh": 0, "other_mesh": 1, "at": [1, 2, 4], "gap_m": 0.5 } ],
   "seams": [ { "mesh": 0, "other_mesh": 1, "state": "covered by a skirt", "largest_gap_m": -0.5 } ],
   "vertical_m": { "max": 1.5, "certain_max": 1.25, "at": [3, 4] }, "terrain": { "file": "dem.tif", "declared": { "bound_m": 2, "everywhere": true } },
-  "headline": "2 cracks", "displacement_px": null, "image": { "camera": { "position": [5, 2, 3] }, "mesh_px": 7 } })";
+  "headline": "2 cracks", "displacement_px": null, "image": { "camera": { "position": [1, 2, 9] }, "mesh_px": 7 } })";
 
 std::string check_with(const std::string& from, const std::string& to) {
   std::string text = kCheck;
@@ -244,7 +244,7 @@ TEST(CompareChecks, WhatBecameWorse) {
       << "a signed gap is as bad as it is large";
   EXPECT_THAT(check_lines("true", "false"), ElementsAre("worse : terrain.declared.everywhere true → false"));
   EXPECT_THAT(check_lines("\"headline\": \"2", "\"headline\": \"3"), IsEmpty()) << "counts again, in words";
-  EXPECT_THAT(check_lines("\"position\": [5", "\"position\": [6"),
+  EXPECT_THAT(check_lines("\"position\": [1", "\"position\": [2"),
               ElementsAre(HasSubstr("changed : image.camera {")));
   EXPECT_THAT(check_lines("dem.tif", "other.tif"), ElementsAre("changed : terrain.file dem.tif → other.tif"));
   EXPECT_THAT(check_lines("the file's own", "metres"),

@@ -227,9 +227,8 @@ TEST(FindingCataloguePage, FoldersAreWhatTheirGeneratorWrites) {
   for (const auto& [name, bytes] : files) expect_file(folder / name, bytes);
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path name = entry.path().lexically_relative(folder);
-    if (entry.is_regular_file() && name.has_parent_path()) {
-      EXPECT_TRUE(files.contains(name.generic_string())) << name << " was not generated";
-    }
+    if (!entry.is_regular_file() || !name.has_parent_path()) continue;
+    EXPECT_TRUE(files.contains(name.generic_string())) << name << " was not generated";
   }
 }
 
