@@ -14,8 +14,10 @@
 
 #include "properties/compare/json_reader.h"
 #include "properties/verdict/verdict.h"
+#include "reports/check_report.h"
 #include "reports/report.h"
 #include "scenarios/error.h"
+#include "tests/reports/sample_check.h"
 #include "tests/reports/sample_verdict.h"
 
 namespace plumbline::compare {
@@ -297,6 +299,26 @@ TEST(CompareChecks, OneMeshAgainstOneMeshWhateverTheirNames) {
   const Comparison comparison = compare_texts(one("x/before.ply", 1), one("y/after.ply", 2));
   EXPECT_THAT(lines(comparison), ElementsAre("worse : conformity.crack 1 → 2"));
   EXPECT_THAT(comparison.notes, ElementsAre("before.ply before is compared with after.ply after"));
+}
+
+TEST(CompareChecks, ReadsWhatCheckWrites) {
+  for (const verdict::CheckVerdict& check :
+       {sample::terrain_check(), sample::tiles_check(), sample::object_check()}) {
+    const std::string known = reports::check_json(check);
+    const Comparison same = compare_texts(known, known);
+    EXPECT_THAT(lines(same), IsEmpty());
+    EXPECT_EQ(same.subjects, check.meshes.size() + check.seams.size());
+    EXPECT_GT(same.same, 20u);
+    verdict::CheckVerdict worse = check;
+    worse.conformity.degenerate += 3;
+    worse.findings.push_back(
+        sample::check_finding(oracle::FindingCode::degenerate, "needle", 0, {1, 1, 1}, {7, 8, 9}));
+    worse.findings_total += 1;
+    const Comparison comparison = compare_texts(known, reports::check_json(worse));
+    EXPECT_THAT(lines(comparison),
+                testing::Contains(HasSubstr("201 degenerate: needle at 7, 8, 9 — → found")));
+    EXPECT_EQ(comparison.count(Change::worse), check.findings_total == check.findings.size() ? 3u : 2u);
+  }
 }
 
 TEST(CompareChecks, ResultsAreNotComparedWithChecks) {
