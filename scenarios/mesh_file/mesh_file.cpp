@@ -53,9 +53,14 @@ void clip_ears(const std::vector<Vec2>& flat, std::vector<std::array<std::size_t
       m = kNever;
       return false;
     }
+    // Most corners lie outside of the triangle's box.
+    const double west = std::min({a.x, b.x, c.x}), east = std::max({a.x, b.x, c.x});
+    const double south = std::min({a.y, b.y, c.y}), north = std::max({a.y, b.y, c.y});
     for (; m < flat.size(); ++m) {
-      if (gone[m] == 0 && m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 &&
-          turn(b, c, flat[m]) >= 0 && turn(c, a, flat[m]) >= 0)
+      const Vec2 p = flat[m];
+      if (p.x < west || p.x > east || p.y < south || p.y > north) continue;
+      if (gone[m] == 0 && m != i && m != j && m != l && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+          turn(c, a, p) >= 0)
         return false;
     }
     return true;
