@@ -45,9 +45,10 @@ void clip_ears(const std::vector<Vec2>& flat, std::vector<std::array<std::size_t
   std::vector<std::size_t> inside(flat.size(),
                                   0);  // by tip: no corner before this one is; kNever: no left turn
   const auto is_ear = [&](std::size_t k) {
-    const std::size_t n = left.size(), i = left[(k + n - 1) % n], j = left[k], l = left[(k + 1) % n];
+    const std::size_t j = left[k];
     std::size_t& m = inside[j];
-    if (m == kNever) return false;
+    if (m == kNever || (m > 0 && gone[m] == 0)) return false;  // as found before: most of all questions
+    const std::size_t n = left.size(), i = left[k == 0 ? n - 1 : k - 1], l = left[k + 1 == n ? 0 : k + 1];
     const Vec2 a = flat[i], b = flat[j], c = flat[l];
     if (m == 0 && !(turn(a, b, c) > 0)) {
       m = kNever;
