@@ -114,10 +114,6 @@ std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(cons
   return pairs;
 }
 
-CertifiedDistance Likeness::hausdorff() const {
-  return {std::max(to_mesh.least_m, from_mesh.least_m), std::max(to_mesh.most_m, from_mesh.most_m)};
-}
-
 std::optional<Likeness> compare_in_space(const Mesh& mesh, const Mesh& reference, double within_m) {
   const std::optional<Converted> a = convert(mesh), b = convert(reference);
   if (!a || !b || a->triangle.empty() || b->triangle.empty()) return std::nullopt;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,9 @@ struct Likeness {
   double turned_share = 0;  ///< of the reference's area where that angle exceeds 90 degrees
 
   /// The two-sided Hausdorff distance.
-  [[nodiscard]] CertifiedDistance hausdorff() const;
+  [[nodiscard]] CertifiedDistance hausdorff() const {
+    return {std::max(to_mesh.least_m, from_mesh.least_m), std::max(to_mesh.most_m, from_mesh.most_m)};
+  }
 };
 
 /// Compares two triangle meshes in space. Distances are certified to `within_m`: the interval is at most

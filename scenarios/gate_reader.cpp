@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -41,7 +43,7 @@ bool read_comparison(std::string_view text, GateSpec& gate) {
 
 class GateReader {
  public:
-  explicit GateReader(const std::vector<std::string>& methods) : methods_(methods) {
+  explicit GateReader(const std::set<std::string>& methods) : methods_(methods) {
     for (const std::string_view figure : kGateFigures) {
       figures_.emplace_back(figure);
       groups_.emplace_back(figure.substr(0, figure.find('.')));
@@ -60,9 +62,9 @@ class GateReader {
       } else if (is_group) {
         read(value.table(), method, key + ".");
       } else if (method.empty() && prefix.empty()) {
-        if (std::find(methods_.begin(), methods_.end(), key) == methods_.end()) {
-          value.fail(
-              fmt::format("names no method of this suite; did you mean '{}'?", nearest_name(key, methods_)));
+        if (methods_.count(key) == 0) {
+          value.fail(fmt::format("names no method of this suite; did you mean '{}'?",
+                                 nearest_name(key, {methods_.begin(), methods_.end()})));
         }
         read(value.table(), key, "");
       } else {
@@ -81,21 +83,19 @@ class GateReader {
     }
     GateSpec gate = read_limit(value, figure);
     gate.method = method;
-    for (const GateSpec& earlier : gates_) {
-      if (earlier.figure == figure && earlier.method == method)
-        value.fail("is limited twice; keep one of the limits");
-    }
+    if (!taken_.insert({figure, method}).second) value.fail("is limited twice; keep one of the limits");
     gates_.push_back(std::move(gate));
   }
 
-  const std::vector<std::string>& methods_;
+  const std::set<std::string>& methods_;
   std::vector<std::string> figures_, groups_, known_;
   std::vector<GateSpec> gates_;
+  std::set<std::pair<std::string, std::string>> taken_;
 };
 
 }  // namespace
 
-std::vector<GateSpec> read_gates(const TomlTable& gate, const std::vector<std::string>& methods) {
+std::vector<GateSpec> read_gates(const TomlTable& gate, const std::set<std::string>& methods) {
   GateReader reader(methods);
   reader.read(gate, "", "");
   return reader.take();

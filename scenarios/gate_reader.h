@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,7 @@ inline constexpr std::string_view kExpectedKey = "expected";
 /// named after one of `methods` (`[gate.block_bintree]`, `[gate."block_bintree:tri_cull"]`) holds that
 /// method's own limits. Figures are those of gate_figures.h, dotted or quoted. Throws InputError for anything
 /// else, and for a figure limited twice.
-std::vector<GateSpec> read_gates(const TomlTable& gate, const std::vector<std::string>& methods);
+std::vector<GateSpec> read_gates(const TomlTable& gate, const std::set<std::string>& methods);
 
 /// One such limit on `figure`, of every method. Throws InputError if `value` is none.
 GateSpec read_limit(const TomlValue& value, const std::string& figure);

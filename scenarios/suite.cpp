@@ -38,11 +38,9 @@ std::string read_id(const TomlTable& table, bool with_variant) {
   return id;
 }
 
-template <class Item>
-void refuse_second(const TomlTable& table, const std::vector<Item>& earlier, const std::string& id) {
-  for (const Item& item : earlier) {
-    if (item.id == id) table.at("id").fail(fmt::format("repeats \"{}\"; give each its own id", id));
-  }
+// Looked up in sets, here and below: a file may name a hundred thousand.
+void refuse_second(const TomlTable& table, std::set<std::string>& taken, const std::string& id) {
+  if (!taken.insert(id).second) table.at("id").fail(fmt::format("repeats \"{}\"; give each its own id", id));
 }
 
 MethodSpec read_method(const TomlTable& table) {
@@ -50,12 +48,12 @@ MethodSpec read_method(const TomlTable& table) {
   MethodSpec method;
   method.id = read_id(table, true);
   const TomlValue& thresholds = table.at("thresholds_px");
+  std::set<double> taken;
   for (const TomlValue& element : thresholds.array()) {
     const double threshold_px = element.positive();
     if (threshold_px > kLargestThresholdPx)
       element.fail(fmt::format("is {}; give at most 1e6 pixels", threshold_px));
-    const auto& earlier = method.thresholds_px;
-    if (std::find(earlier.begin(), earlier.end(), threshold_px) != earlier.end()) {
+    if (!taken.insert(threshold_px).second) {
       element.fail(fmt::format("repeats {}; name each threshold once", threshold_px));
     }
     method.thresholds_px.push_back(threshold_px);
@@ -77,15 +75,15 @@ MethodSpec read_method(const TomlTable& table) {
 
 // The ids that `key` lists: each one of `known`.
 std::vector<std::string> read_chosen(const TomlTable& table, const char* key,
-                                     const std::vector<std::string>& known) {
+                                     const std::set<std::string>& known) {
   std::vector<std::string> chosen;
   const TomlValue* value = table.find(key);
   if (value == nullptr) return chosen;
   for (const TomlValue& element : value->array()) {
     const std::string& id = element.text();
-    if (std::find(known.begin(), known.end(), id) == known.end()) {
+    if (known.count(id) == 0) {
       element.fail(fmt::format("names \"{}\", which the suite does not have; did you mean \"{}\"?",
-                               one_line(id, 80), nearest_name(id, known)));
+                               one_line(id, 80), nearest_name(id, {known.begin(), known.end()})));
     }
     chosen.push_back(id);
   }
@@ -170,42 +168,36 @@ Suite read_suite(const TomlTable& file, const std::filesystem::path& path) {
   if (const TomlValue* yardstick = head.find("yardstick")) suite.yardstick = yardstick->text();
   suite.slack_every = static_cast<int>(head.integer_or("slack_every", 1, kMostFrames, suite.slack_every));
 
+  std::set<std::string> subjects, flights, methods;  // the ids of each
   for (const TomlTable* table : file.tables("terrain")) {
     const std::string id = read_id(*table, false);
-    refuse_second(*table, suite.terrains, id);
+    refuse_second(*table, subjects, id);
     suite.terrains.push_back(read_terrain_source(*table, path.parent_path()));
   }
   for (const TomlTable* table : file.tables("mesh")) {
     const std::string id = read_id(*table, false);
-    refuse_second(*table, suite.terrains, id);
-    refuse_second(*table, suite.meshes, id);
+    refuse_second(*table, subjects, id);
     suite.meshes.push_back(read_mesh_source(*table, path.parent_path()));
   }
   const bool meshes_only = suite.terrains.empty() && !suite.meshes.empty();
   const Subject around = meshes_only ? Subject::mesh : Subject::terrain;
   for (const TomlTable* table : file.tables("trajectory")) {
     const std::string id = read_id(*table, false);
-    refuse_second(*table, suite.trajectories, id);
+    refuse_second(*table, flights, id);
     suite.trajectories.push_back(read_trajectory(*table, around));
   }
-  std::vector<std::string> subjects, flights;
-  for (const TerrainSource& terrain : suite.terrains) subjects.push_back(terrain.id);
-  for (const MeshSource& mesh : suite.meshes) subjects.push_back(mesh.id);
-  for (const TrajectorySpec& trajectory : suite.trajectories) flights.push_back(trajectory.id);
   for (const TomlTable* table : file.tables("method")) {
     MethodSpec method = read_method(*table);
     method.subjects = read_chosen(*table, "subjects", subjects);
     method.trajectories = read_chosen(*table, "trajectories", flights);
-    refuse_second(*table, suite.methods, method.id);
+    refuse_second(*table, methods, method.id);
     suite.methods.push_back(std::move(method));
   }
-  if (const TomlValue* yardstick = head.find("yardstick")) {
-    std::vector<std::string> methods;
-    for (const MethodSpec& method : suite.methods) methods.push_back(method.id);
-    if (std::find(methods.begin(), methods.end(), suite.yardstick) == methods.end()) {
-      yardstick->fail(fmt::format("is \"{}\", which is no [[method]] of the suite; did you mean \"{}\"?",
-                                  one_line(suite.yardstick, 80), nearest_name(suite.yardstick, methods)));
-    }
+  if (const TomlValue* yardstick = head.find("yardstick");
+      yardstick != nullptr && methods.count(suite.yardstick) == 0) {
+    yardstick->fail(fmt::format(
+        "is \"{}\", which is no [[method]] of the suite; did you mean \"{}\"?", one_line(suite.yardstick, 80),
+        nearest_name(suite.yardstick, std::vector<std::string>(methods.begin(), methods.end()))));
   }
   if (suite.terrains.empty() && suite.meshes.empty())
     file.fail("the suite has no terrain; add a [[terrain]], or a [[mesh]]");
@@ -215,8 +207,6 @@ Suite read_suite(const TomlTable& file, const std::filesystem::path& path) {
   refuse_equal_run_ids(suite, file);
 
   if (const TomlValue* gate = file.find("gate")) {
-    std::vector<std::string> methods;
-    for (const MethodSpec& method : suite.methods) methods.push_back(method.id);
     suite.gates = read_gates(gate->table(), methods);
     if (const TomlValue* expected = gate->table().find(kExpectedKey))
       suite.expected = read_expected(path.parent_path() / expected->text(), suite);

@@ -45,17 +45,23 @@ void clip_ears(const std::vector<Vec2>& flat, std::vector<std::array<std::size_t
   std::vector<std::size_t> inside(flat.size(),
                                   0);  // by tip: no corner before this one is; kNever: no left turn
   const auto is_ear = [&](std::size_t k) {
-    const std::size_t n = left.size(), i = left[(k + n - 1) % n], j = left[k], l = left[(k + 1) % n];
+    const std::size_t j = left[k];
     std::size_t& m = inside[j];
-    if (m == kNever) return false;
+    if (m == kNever || (m > 0 && gone[m] == 0)) return false;  // as found before: most of all questions
+    const std::size_t n = left.size(), i = left[k == 0 ? n - 1 : k - 1], l = left[k + 1 == n ? 0 : k + 1];
     const Vec2 a = flat[i], b = flat[j], c = flat[l];
     if (m == 0 && !(turn(a, b, c) > 0)) {
       m = kNever;
       return false;
     }
+    // Most corners lie outside of the triangle's box.
+    const double west = std::min({a.x, b.x, c.x}), east = std::max({a.x, b.x, c.x});
+    const double south = std::min({a.y, b.y, c.y}), north = std::max({a.y, b.y, c.y});
     for (; m < flat.size(); ++m) {
-      if (gone[m] == 0 && m != i && m != j && m != l && turn(a, b, flat[m]) >= 0 &&
-          turn(b, c, flat[m]) >= 0 && turn(c, a, flat[m]) >= 0)
+      const Vec2 p = flat[m];
+      if (p.x < west || p.x > east || p.y < south || p.y > north) continue;
+      if (gone[m] == 0 && m != i && m != j && m != l && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+          turn(c, a, p) >= 0)
         return false;
     }
     return true;
