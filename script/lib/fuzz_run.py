@@ -14,8 +14,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
-# A reader of the seeds' sizes needs far less of any of these; malloc_limit_mb speaks of one allocation.
-LIMITS = ["-timeout=10", "-rss_limit_mb=1024", "-malloc_limit_mb=256"]
+# A reader of the seeds' sizes needs far less of any of these; malloc_limit_mb speaks of one allocation. A minute is no
+# verdict on speed: a machine that does something else may stand still for a while, a reader that hangs never ends.
+LIMITS = ["-timeout=60", "-report_slow_units=60", "-rss_limit_mb=1024", "-malloc_limit_mb=256"]
 
 
 class Run(NamedTuple):

@@ -26,7 +26,7 @@ for list in "$build"/tests/fuzz/*.seeds; do
   rm -f "$OUT/${name}_seed_corpus.zip"
   find "${seeds[@]}" -type f -print0 | sort -z | xargs -0 zip -q -j "$OUT/${name}_seed_corpus.zip"
   if [ -e "$root/tests/fuzz/$target.dict" ]; then cp "$root/tests/fuzz/$target.dict" "$OUT/$name.dict"; fi
-  printf '[libfuzzer]\nmax_len = 65536\ntimeout = 10\n' >"$OUT/$name.options"
+  printf '[libfuzzer]\nmax_len = 65536\ntimeout = 60\n' >"$OUT/$name.options"
   ldd "$build/tests/fuzz/$name" | awk '$3 ~ /^\// {print $3}' | grep -v -E '/(libc|libm|libdl|librt|libpthread|libresolv)\.so' |
     xargs -r cp -L -n -t "$OUT/lib"
 done
