@@ -41,6 +41,18 @@ inline void write_file(const std::filesystem::path& path, const std::string& byt
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
+/// Whether a program has got as far as to wait for Ctrl-C: SIGINT is bit 1 of the mask of caught signals that
+/// Linux tells. A sanitizer's start-up may take a second in which the signal would end the program as it ends
+/// any.
+inline bool waits_for_interrupt(pid_t program) {
+  std::ifstream status("/proc/" + std::to_string(program) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("SigCgt:", 0) == 0)
+      return ((std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1)) & 1U) != 0;
+  }
+  return false;
+}
+
 /// Each test gets an empty folder of its own, gone afterwards.
 class ProgramTest : public ::testing::Test {
  public:
