@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "properties/check/check.h"
 #include "reports/check_report.h"
+#include "reports/escape.h"
 #include "scenarios/error.h"
 #include "scenarios/nearest.h"
 #include "scenarios/pose.h"
@@ -55,7 +56,7 @@ Value chosen(const std::string& option, const std::string& text, const std::map<
 }
 
 /// Bounds on what a person could mean: metres per unit, a bound in metres, a skirt.
-constexpr double kLargestUnit = 1e9, kLargestBound = 1e9;
+constexpr double kLargestUnit = 1e9, kLargestBound = 1e9, kLeastTauPx = 1e-9, kMostTauPx = 1e9;
 
 CheckRequest request_of(const CheckArguments& arguments) {
   CheckRequest request;
@@ -105,9 +106,9 @@ CheckRequest request_of(const CheckArguments& arguments) {
 /// The line that repeats the check; where its files go changes no figure.
 std::string repeat_line(const CheckArguments& arguments) {
   std::string line = "plumbline check";
-  for (const std::string& mesh : arguments.meshes) line += " " + mesh;
+  for (const std::string& mesh : arguments.meshes) line += " " + reports::shell_word(mesh);
   const auto option = [&](const char* name, const std::string& value, const std::string& usual = {}) {
-    if (value != usual) line += fmt::format(" {} {}", name, value);
+    if (value != usual) line += fmt::format(" {} {}", name, reports::shell_word(value));
   };
   option("--terrain", arguments.terrain);
   option("--placing", arguments.placing, "guess");
@@ -126,7 +127,12 @@ std::string repeat_line(const CheckArguments& arguments) {
 
 int run_check(const CheckArguments& arguments) {
   const CheckRequest request = request_of(arguments);
-  if (!arguments.report.empty()) require_writable(arguments.report);  // known before the work, not after
+  end_at_interrupt();
+  // Known before the work, not after.
+  if (!arguments.report.empty()) require_writable(arguments.report);
+  for (const std::string& file : {arguments.json, arguments.sarif}) {
+    if (!file.empty()) require_writable_file(file);
+  }
   const CheckOutcome outcome = check(request);
   if (!arguments.json.empty()) write_whole_file(arguments.json, reports::check_json(outcome.verdict));
   if (!arguments.sarif.empty()) write_whole_file(arguments.sarif, reports::check_sarif(outcome.verdict));
@@ -174,7 +180,7 @@ void add_check(CLI::App& program, int& status) {
   command->add_option("--camera", arguments->camera, "x,y,z:x,y,z[:fov_y_deg[:WxH]]: position, look-at");
   command->add_option("--tau", arguments->tau_px, "threshold of the picture, pixels")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(kLeastTauPx, kMostTauPx));
   command->add_option("--up", arguments->up, "which axis is up: guess, x, y, z")->capture_default_str();
   command->add_option("--kind", arguments->kind, "guess, terrain, object")->capture_default_str();
   command->add_option("--unit", arguments->unit, "metres per unit of the files, or 'feet'")

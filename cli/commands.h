@@ -19,6 +19,8 @@ inline constexpr int kInterrupted = 130;
 
 /// Set by Ctrl-C; long work polls it.
 const std::atomic<bool>& interrupted();
+/// For work that keeps nothing unfinished: Ctrl-C ends the program at once, as the shell's 130.
+void end_at_interrupt();
 
 void add_run(CLI::App& program, int& status);
 void add_check(CLI::App& program, int& status);

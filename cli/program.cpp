@@ -76,6 +76,8 @@ int obey(int argc, char** argv) {
 
 const std::atomic<bool>& interrupted() { return g_interrupted; }
 
+void end_at_interrupt() { std::signal(SIGINT, SIG_DFL); }
+
 }  // namespace plumbline::cli
 
 int plumbline::run_program(int argc, char** argv, std::vector<MethodDescription> own_methods,

@@ -14,6 +14,7 @@
 #include "cli/shipped.h"
 #include "properties/harness/run_suite.h"
 #include "properties/selftest/selftest.h"
+#include "reports/escape.h"
 #include "reports/report.h"
 #include "scenarios/error.h"
 #include "scenarios/expected_file.h"
@@ -51,11 +52,12 @@ std::vector<std::string> split_list(const std::string& text) {
 
 /// The line that repeats the run; threads and folders change no figure, so they are left out.
 std::string repeat_line(const RunArguments& arguments) {
-  std::string line = fmt::format("plumbline run {}", arguments.suite);
+  std::string line = "plumbline run " + reports::shell_word(arguments.suite);
   if (!arguments.methods.empty()) {
-    line += fmt::format(" --methods {}", fmt::join(split_list(arguments.methods), ","));
+    line +=
+        " --methods " + reports::shell_word(fmt::format("{}", fmt::join(split_list(arguments.methods), ",")));
   }
-  if (!arguments.expected.empty()) line += fmt::format(" --expected {}", arguments.expected);
+  if (!arguments.expected.empty()) line += " --expected " + reports::shell_word(arguments.expected);
   return line;
 }
 

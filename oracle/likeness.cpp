@@ -17,6 +17,7 @@
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
+#include <boost/iterator/function_output_iterator.hpp>
 
 #include "oracle/predicates.h"
 #include "scenarios/portable_math.h"
@@ -41,12 +42,17 @@ struct Converted {
   std::vector<std::uint32_t> triangle;
 };
 
+bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
 std::optional<Converted> convert(const Mesh& mesh) {
   Converted out;
-  for (const Vec3 p : mesh.positions) out.surface.add_vertex({p.x, p.y, p.z});
+  for (const Vec3 p : mesh.positions)
+    out.surface.add_vertex(is_finite(p) ? Kernel::Point_3(p.x, p.y, p.z) : Kernel::Point_3(CGAL::ORIGIN));
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    if (!has_area(mesh.positions[a], mesh.positions[b], mesh.positions[c])) continue;
+    if (!is_finite(mesh.positions[a]) || !is_finite(mesh.positions[b]) || !is_finite(mesh.positions[c]) ||
+        !has_area(mesh.positions[a], mesh.positions[b], mesh.positions[c]))
+      continue;
     const Face face =
         out.surface.add_face(Surface::Vertex_index(a), Surface::Vertex_index(b), Surface::Vertex_index(c));
     if (face == Surface::null_face()) return std::nullopt;
@@ -100,18 +106,26 @@ void compare_normals(const Converted& reference, const Mesh& reference_mesh, con
 
 }  // namespace
 
-std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(const Mesh& mesh) {
+std::optional<std::vector<TrianglePair>> self_intersections(const Mesh& mesh) {
+  auto some = some_self_intersections(mesh, std::numeric_limits<std::size_t>::max());
+  if (!some) return std::nullopt;
+  return std::move(some->pairs);
+}
+
+std::optional<SomeIntersections> some_self_intersections(const Mesh& mesh, std::size_t most) {
   const std::optional<Converted> converted = convert(mesh);
   if (!converted) return std::nullopt;
-  std::vector<std::pair<Face, Face>> found;
-  processing::self_intersections<CGAL::Sequential_tag>(converted->surface, std::back_inserter(found));
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  for (const auto& [f, g] : found) {
-    const std::uint32_t s = converted->triangle[f], t = converted->triangle[g];
-    pairs.push_back({std::min(s, t), std::max(s, t)});
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  SomeIntersections out;
+  // CGAL tells each pair once, in an order that depends on the mesh alone.
+  const auto take = [&](const std::pair<Face, Face>& pair) {
+    if (out.total++ >= most) return;
+    const std::uint32_t s = converted->triangle[pair.first], t = converted->triangle[pair.second];
+    out.pairs.push_back({std::min(s, t), std::max(s, t)});
+  };
+  processing::self_intersections<CGAL::Sequential_tag>(converted->surface,
+                                                       boost::make_function_output_iterator(take));
+  std::sort(out.pairs.begin(), out.pairs.end());
+  return out;
 }
 
 std::optional<Likeness> compare_in_space(const Mesh& mesh, const Mesh& reference, double within_m) {

@@ -18,9 +18,19 @@ namespace plumbline::oracle {
 /// Polygon Mesh Processing; one thread, so the bits depend on the meshes alone.
 
 /// Pairs of triangles that meet elsewhere than in a corner or an edge they share, each with the lesser index
-/// first, sorted. Exact. Triangles without area, which oracle::check_soundness reports, are left out. Nothing
-/// if the mesh is no oriented manifold (nobody's business here: check_soundness says where).
-std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(const Mesh& mesh);
+/// first, sorted. Exact. Triangles without area, or with a corner that is not finite, which
+/// oracle::check_soundness reports, are left out. Nothing if the mesh is no oriented manifold (nobody's
+/// business here: check_soundness says where).
+using TrianglePair = std::array<std::uint32_t, 2>;
+std::optional<std::vector<TrianglePair>> self_intersections(const Mesh& mesh);
+
+/// The same of a mesh that may be anything: all pairs are counted, `most` of them kept (the same each time),
+/// for their number may grow with the square of the triangles'.
+struct SomeIntersections {
+  std::vector<TrianglePair> pairs;
+  std::size_t total = 0;
+};
+std::optional<SomeIntersections> some_self_intersections(const Mesh& mesh, std::size_t most);
 
 /// A distance that is known to lie within [least_m, most_m].
 struct CertifiedDistance {

@@ -393,7 +393,7 @@ class CheckPage {
       line = "plumbline check";
       for (const CheckedMesh& mesh :
            std::span(verdict_.meshes).first(std::min(verdict_.meshes.size(), kRowsShown)))
-        line += " " + mesh.file;
+        line += " " + shell_word(mesh.path.empty() ? mesh.file : mesh.path);
       if (verdict_.meshes.size() > kRowsShown) line += " …";
     }
     open("repeat", "How to repeat it");

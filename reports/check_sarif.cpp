@@ -15,9 +15,9 @@
 namespace plumbline::reports {
 namespace {
 
-/// Empty if there is no such mesh.
-std::string file_of(const verdict::CheckVerdict& verdict, std::uint32_t mesh) {
-  return mesh < verdict.meshes.size() ? verdict.meshes[mesh].file : std::string();
+/// Where the mesh lies: readers of SARIF open it.
+const std::string& path_of(const verdict::CheckedMesh& mesh) {
+  return mesh.path.empty() ? mesh.file : mesh.path;
 }
 
 using oracle::FindingCode;
@@ -119,8 +119,10 @@ Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::
   const oracle::Finding& plain = finding.finding;
   const bool named = finding.mesh < verdict.meshes.size();
   const bool paired = finding.other_mesh < verdict.meshes.size();
-  const std::string file = file_of(verdict, finding.mesh);
-  const std::string other_file = file_of(verdict, finding.other_mesh);
+  const std::string file = named ? path_of(verdict.meshes[finding.mesh])
+                           : finding.file.empty() && !verdict.meshes.empty() ? path_of(verdict.meshes.front())
+                                                                             : finding.file;
+  const std::string other_file = paired ? path_of(verdict.meshes[finding.other_mesh]) : std::string();
   std::string text = fmt::format("{} At {}", message_words(finding), place_words(finding.at));
   if (paired)
     text += fmt::format(", between {} and {}", mesh_name(verdict, finding.mesh),
@@ -129,8 +131,8 @@ Json result_json(const CheckVerdict& verdict, const CheckFinding& finding, std::
               {"ruleIndex", rule},
               {"level", plain.severity == oracle::Severity::hazard ? "warning" : "error"},
               {"message", {{"text", text + "."}}},
-              {"locations", Json::array()}};
-  if (named) out["locations"].push_back(location_json(file, finding.at));
+              // Code scanning refuses a whole upload for one result without a location.
+              {"locations", Json::array({location_json(file, finding.at)})}};
   if (paired) {
     Json other = location_json(other_file, finding.at);
     other["id"] = 1;
@@ -158,9 +160,12 @@ std::string check_sarif(const CheckVerdict& verdict) {
   const std::vector<FindingCode> codes = rule_codes(verdict);
   Json rules = Json::array();
   for (const FindingCode code : codes) rules.push_back(rule_json(code, usually_hazard(code)));
-  Json artifacts = Json::array();
-  for (const verdict::CheckedMesh& mesh : verdict.meshes)
-    artifacts.push_back({{"location", {{"uri", file_uri(mesh.file)}}}});
+  Json artifacts = Json::array();  // each once, in the order of the meshes
+  std::set<std::string> uris;
+  for (const verdict::CheckedMesh& mesh : verdict.meshes) {
+    const std::string uri = file_uri(path_of(mesh));
+    if (uris.insert(uri).second) artifacts.push_back({{"location", {{"uri", uri}}}});
+  }
   Json results = Json::array();
   std::map<std::string, int> seen;
   for (const CheckFinding& finding : verdict.findings) {

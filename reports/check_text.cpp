@@ -200,7 +200,7 @@ class CheckText {
       text_.line(6, fmt::format("{} at equal heights",
                                 counted_code(oracle::FindingCode::t_junction, seam.t_junctions)));
     std::vector<std::string> parts;
-    if (seam.largest_gap_m != 0 && std::fabs(seam.largest_gap_m) <= seam.quantum_m)
+    if (seam.largest_gap_m != 0 && verdict::is_rounding(seam, seam.largest_gap_m))
       parts.push_back(
           fmt::format("one step of the tiles' heights is {}: the gap is no more than their rounding",
                       metres(seam.quantum_m)));

@@ -173,7 +173,7 @@ std::vector<CodeGroup> group_findings(const CheckVerdict& verdict) {
 }
 
 bool is_faulty(const SeamVerdict& seam) {
-  const bool rounding = seam.t_junctions == 0 && std::fabs(seam.largest_gap_m) <= seam.quantum_m;
+  const bool rounding = seam.t_junctions == 0 && verdict::is_rounding(seam, seam.largest_gap_m);
   return seam.state == verdict::SeamState::open && seam.must_meet && !rounding;
 }
 

@@ -22,6 +22,9 @@ std::string script_safe_json(std::string_view json);
 /// '.'. So no id leaves the folder, and different ids have different names.
 std::string file_stem(std::string_view id);
 
+/// As one has to type it: in quotes if a shell would read more than the word in it.
+std::string shell_word(const std::string& word);
+
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 

@@ -28,12 +28,19 @@ constexpr const char* kCamera[] = {"check.camera.mesh.png", "check.camera.error.
 /// Linear RGB: a plain grey, and a red that stands out from it in any light.
 constexpr std::array<double, 3> kSurface{0.45, 0.5, 0.52}, kMarked{0.75, 0.02, 0.02};
 
+/// As spots are named, "01-crack-….glb": what else lies there is the user's.
+bool is_spot(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const auto digit = [&](std::size_t k) { return name[k] >= '0' && name[k] <= '9'; };
+  return path.extension() == ".glb" && name.size() > 3 && digit(0) && digit(1) && name[2] == '-';
+}
+
 /// Those of an earlier check in the same folder would pass for this one's.
 void remove_old(const fs::path& out) {
   std::error_code error;
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(out / "spots", error))
-    if (entry.path().extension() == ".glb") old.push_back(entry.path());
+    if (is_spot(entry.path())) old.push_back(entry.path());
   old.push_back(out / "images" / kErrorMap);
   for (const char* name : kCamera) old.push_back(out / "images" / name);
   for (const fs::path& path : old) fs::remove(path, error);

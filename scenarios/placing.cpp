@@ -242,10 +242,10 @@ Vec2 Placing::from_samples(Vec2 point) const {
 
 std::span<const PlacingName> placing_names() { return kNames; }
 
-std::vector<Placing> placings(const Dem& dem, Vec2 low, Vec2 high) {
+std::vector<Placing> placings(const Dem& dem, Vec2 low, Vec2 high, double unit_m) {
   std::vector<Placing> all;
   const Vec2 north_west{dem.file_low.x, dem.file_high.y};
-  const Vec2 metres{dem.metres_x, dem.metres_y};
+  const Vec2 metres{dem.metres_x / unit_m, dem.metres_y / unit_m};  // in the mesh's unit
   if (dem.georeferenced) {
     Vec2 origin = dem.origin;
     std::string words = dem.geographic ? "x is the longitude and y the latitude, degrees"
@@ -294,7 +294,8 @@ std::vector<Placing> placings(const Dem& dem, Vec2 low, Vec2 high) {
   return all;
 }
 
-LaidDem lay_over_dem(const DemRequest& request, std::string_view name, std::span<const Mesh* const> meshes) {
+LaidDem lay_over_dem(const DemRequest& request, std::string_view name, std::span<const Mesh* const> meshes,
+                     double unit_m) {
   const Evidence evidence = gather(meshes);
   if (evidence.box.empty()) throw InputError("no mesh has a finite vertex to lay over the DEM; give one");
   const Vec2 low = evidence.box.low, high = evidence.box.high;
@@ -303,7 +304,7 @@ LaidDem lay_over_dem(const DemRequest& request, std::string_view name, std::span
   const bool metric_wanted =
       laid.dem.geographic && (name == "local" || name == "centred" || name == "samples_scaled");
   if (metric_wanted) laid.dem = resampled_dem(request);
-  std::vector<Placing> all = placings(laid.dem, low, high);
+  std::vector<Placing> all = placings(laid.dem, low, high, unit_m);
   if (name != "guess") {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Placing& placing) { return placing.name == name; });
@@ -324,7 +325,7 @@ LaidDem lay_over_dem(const DemRequest& request, std::string_view name, std::span
     // Metres over a graticule: only the local frame could explain them.
     try {
       Dem metric = resampled_dem(request);
-      const std::vector<Placing> in_metres = placings(metric, low, high);
+      const std::vector<Placing> in_metres = placings(metric, low, high, unit_m);
       const Guess other = guess(metric, in_metres, evidence);
       if (other.candidate.lie >= Lie::inside) {
         laid.dem = std::move(metric);

@@ -54,8 +54,9 @@ struct PlacingName {
 std::span<const PlacingName> placing_names();
 
 /// The placings that a DEM has, for a mesh with this box in plan, in the documented order. `fit` is last, and
-/// left out if the box has no area.
-std::vector<Placing> placings(const Dem& dem, Vec2 low, Vec2 high);
+/// left out if the box has no area. `unit_m`: metres of one unit of the mesh's plan, for the placings in
+/// metres.
+std::vector<Placing> placings(const Dem& dem, Vec2 low, Vec2 high, double unit_m = 1);
 
 /// A DEM with meshes laid over it.
 struct LaidDem {
@@ -86,7 +87,8 @@ struct LaidDem {
 ///
 /// Throws InputError as read_dem, for an unknown name, for a placing that the DEM does not have, and for
 /// meshes without a finite vertex.
-LaidDem lay_over_dem(const DemRequest& request, std::string_view name, std::span<const Mesh* const> meshes);
+LaidDem lay_over_dem(const DemRequest& request, std::string_view name, std::span<const Mesh* const> meshes,
+                     double unit_m = 1);
 
 /// Sides of a mesh may exceed the samples' rectangle by this much and still be its own: a cell's half on each
 /// side where cells were taken for samples, or one cell on one side, and a rounding.

@@ -23,6 +23,16 @@ namespace {
       fmt::format("cannot write {}: {}; choose a place that can be written", path.string(), why));
 }
 
+/// `path` is what messages speak of.
+void write_to(const std::filesystem::path& place, const std::filesystem::path& path, std::string_view bytes) {
+  std::FILE* file = std::fopen(place.c_str(), "wb");
+  if (file == nullptr) refuse(path, std::strerror(errno));
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  const int write_error = errno;
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed) refuse(path, std::strerror(written ? errno : write_error));
+}
+
 }  // namespace
 
 std::string read_whole_file(const std::filesystem::path& path, std::string_view what) {
@@ -55,8 +65,20 @@ std::string read_whole_file(const std::filesystem::path& path, std::string_view 
   return bytes;
 }
 
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
+void write_whole_file(const std::filesystem::path& named, std::string_view bytes) {
   std::error_code error;
+  // A link keeps pointing at what it names; a device or a pipe is written to, not replaced by a file.
+  std::filesystem::path path = named;
+  if (std::filesystem::is_symlink(named, error)) {
+    const auto target = std::filesystem::canonical(named, error);
+    if (!error) path = target;
+  }
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+      !std::filesystem::is_directory(status)) {
+    write_to(path, path, bytes);
+    return;
+  }
   if (path.has_parent_path()) {
     std::filesystem::create_directories(path.parent_path(), error);
     if (error) refuse(path, error.message());
@@ -64,15 +86,11 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
   // The process id keeps two programs writing the same report from sharing a temporary file.
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.part", static_cast<long>(::getpid()));
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) refuse(path, std::strerror(errno));
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int write_error = errno;
-  const bool closed = std::fclose(file) == 0;
-  if (!written || !closed) {
-    const int cause = written ? errno : write_error;
+  try {
+    write_to(temporary, path, bytes);
+  } catch (...) {
     std::filesystem::remove(temporary, error);
-    refuse(path, std::strerror(cause));
+    throw;
   }
   std::filesystem::rename(temporary, path, error);
   if (error) {
@@ -94,6 +112,15 @@ void require_writable(const std::filesystem::path& folder) {
   std::filesystem::remove(probe, ignored);
   // Whether the work will be refused for another reason is not known yet: then nothing may be left behind.
   for (const std::filesystem::path& part : missing) std::filesystem::remove(part, ignored);
+}
+
+void require_writable_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) refuse(file, "it is a folder");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return;  // a device, a pipe
+  require_writable(file.has_parent_path() ? file.parent_path() : std::filesystem::path("."));
 }
 
 }  // namespace plumbline

@@ -13,12 +13,15 @@ namespace plumbline {
 std::string read_whole_file(const std::filesystem::path& path, std::string_view what);
 
 /// Writes a file whole or not at all: the bytes go to a temporary name beside it, which then takes its place.
-/// Missing folders are made. Throws InputError ("cannot write …") and leaves nothing behind if that fails.
+/// Missing folders are made; a link stays one; into a device or a pipe the bytes go as they are. Throws
+/// InputError ("cannot write …") and leaves nothing behind if that fails.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether files can be written into the folder, asked before long work rather than after it. Leaves
 /// everything as it was: a missing folder is made and removed again. Throws InputError as write_whole_file
 /// does.
 void require_writable(const std::filesystem::path& folder);
+/// The same of one file: that its folder can be written into, and that it is none itself.
+void require_writable_file(const std::filesystem::path& file);
 
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 #include "properties/check/against.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -21,6 +22,11 @@ using oracle::FindingCode;
 
 /// How finely distances in space are certified, as a share of the reference's half diagonal.
 constexpr double kWithinShare = 1e-3;
+/// Finer, as a declared bound may ask for it, down to this share: where surfaces coincide but are cut into
+/// triangles differently, the search halves triangles along every edge until they are that small.
+constexpr double kFinestShare = 0x1p-14;
+/// And no finer than this share of the largest coordinate: a few thousand times the rounding of doubles.
+constexpr double kResolution = 0x1p-40;
 
 bool all_finite(const Mesh& mesh) {
   const std::size_t count = mesh.positions.size();
@@ -33,6 +39,15 @@ bool all_finite(const Mesh& mesh) {
   });
 }
 
+void add_unjudged(std::vector<verdict::CheckFinding>& findings, std::string why) {
+  verdict::CheckFinding found;
+  found.mesh = 0;
+  found.finding.code = FindingCode::nothing_judged;
+  found.finding.kind = "reference";
+  found.message = "distances from the reference were not judged: " + std::move(why);
+  findings.push_back(std::move(found));
+}
+
 void against_reference(Examination& exam, std::vector<verdict::CheckFinding>& findings) {
   const CheckRequest& request = exam.request;
   if (exam.subjects.size() != 1 || exam.subjects[0].tile)
@@ -40,12 +55,14 @@ void against_reference(Examination& exam, std::vector<verdict::CheckFinding>& fi
   Subject& subject = exam.subjects[0];
   Mesh reference = welded(triangulate(read_mesh_file(request.reference)));
   for (Vec3& p : reference.positions) p = exam.frame.from_file(p);
+  if (exam.frame.turned) {
+    for (auto& t : reference.triangles) std::swap(t[1], t[2]);
+  }
   const Mesh mesh = welded(subject.mesh);
   if (reference.triangles.empty())
     throw InputError(fmt::format("{}: the reference has no triangle", one_line(request.reference.string())));
   if (!all_finite(reference) || !all_finite(mesh)) {
-    exam.verdict.notes.emplace_back(
-        "distances from the reference were not judged: a coordinate is not finite, or an index is bad");
+    add_unjudged(findings, "a coordinate is not finite, or an index is bad");
     return;
   }
   Vec3 low = reference.positions.front(), high = low;
@@ -54,13 +71,26 @@ void against_reference(Examination& exam, std::vector<verdict::CheckFinding>& fi
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double unit = exam.frame.unit_m;
-  double within = kWithinShare * length(high - low) / 2;
+  const double half = length(high - low) / 2;
+  double within = kWithinShare * half;
   if (request.declared_m) within = std::min(within, *request.declared_m / unit / 100);
+  if (within < kFinestShare * half) {
+    within = kFinestShare * half;
+    exam.verdict.notes.push_back(
+        fmt::format("distances from the reference are certified to {}, no finer, though less was declared",
+                    length_text(within * unit)));
+  }
+  // Below the doubles' own resolution no bisection ends.
+  double farthest = 0;
+  for (const Mesh* one : std::array{static_cast<const Mesh*>(&reference), &mesh}) {
+    for (const Vec3& p : one->positions)
+      farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  }
+  within = std::max(within, farthest * kResolution);
   if (!(within > 0)) within = kWithinShare;
   const auto likeness = oracle::compare_in_space(mesh, reference, within);
   if (!likeness) {
-    exam.verdict.notes.emplace_back(
-        "distances from the reference were not judged: one of the two meshes is no oriented manifold");
+    add_unjudged(findings, "one of the two meshes is no oriented manifold, or has no area");
     return;
   }
   verdict::ReferenceVerdict& out = exam.verdict.reference.emplace();

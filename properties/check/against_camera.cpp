@@ -19,10 +19,11 @@ namespace {
 using oracle::FindingCode;
 using oracle::Severity;
 
-/// All subjects as one mesh on the stage.
+/// All subjects that are drawn as one mesh on the stage.
 struct Scene {
   Mesh mesh;
-  std::vector<bool> is_wall;  // per triangle
+  std::vector<bool> is_wall;         // per triangle
+  std::vector<std::uint32_t> first;  // per subject: its first triangle
 };
 
 /// Tiles without a DEM stand in metres east and north of the south-west corner of them all.
@@ -48,6 +49,8 @@ Stage tile_stage(const Examination& exam) {
 Scene assemble(const Examination& exam, const Stage& stage) {
   Scene scene;
   for (const Subject& subject : exam.subjects) {
+    scene.first.push_back(static_cast<std::uint32_t>(scene.mesh.triangles.size()));
+    if (subject.tile && !subject.tile->drawn) continue;
     const auto base = static_cast<std::uint32_t>(scene.mesh.positions.size());
     const auto count = static_cast<std::uint32_t>(subject.mesh.positions.size());
     for (std::uint32_t v = 0; v < count; ++v)
@@ -68,10 +71,9 @@ Scene assemble(const Examination& exam, const Stage& stage) {
 /// The findings so far, with the picture's answer: in it or not, and how large.
 void locate(const Examination& exam, const Stage& stage, const Camera& camera,
             const oracle::RaySurface& surface, std::vector<verdict::CheckFinding*>& all) {
-  // A tile's finding without a vertex has a place on its lattice alone; a set's has no mesh.
+  // A finding without a vertex has a place in the mesh's own frame alone; a set's has no mesh.
   std::erase_if(all, [&](const verdict::CheckFinding* found) {
-    return found->mesh == verdict::kNoMesh ||
-           (exam.subjects[found->mesh].tile && found->finding.vertices.empty());
+    return found->mesh == verdict::kNoMesh || (stage.place && found->finding.vertices.empty());
   });
   std::vector<oracle::Finding> placed;
   for (const verdict::CheckFinding* found : all) {
@@ -96,7 +98,13 @@ void locate(const Examination& exam, const Stage& stage, const Camera& camera,
 
 void against_camera(Examination& exam, const Stage& given, std::vector<verdict::CheckFinding>& findings,
                     verdict::CheckPictures& pictures) {
-  const CheckRequest::Pose& pose = *exam.request.camera;
+  CheckRequest::Pose pose = *exam.request.camera;
+  const Vec3 asked = pose.position;
+  const bool in_file_axes = !given.place && !exam.subjects.front().tile;
+  if (in_file_axes) {
+    pose.position = exam.frame.from_file(pose.position);
+    pose.look_at = exam.frame.from_file(pose.look_at);
+  }
   const Camera camera =
       make_camera(pose.position, pose.look_at, pose.fov_y_deg, pose.width_px, pose.height_px);
   const bool tiles = std::any_of(exam.subjects.begin(), exam.subjects.end(),
@@ -107,9 +115,15 @@ void against_camera(Examination& exam, const Stage& given, std::vector<verdict::
   Stage own;
   if (tiles && !given.place) {
     if (!placed) {
-      exam.verdict.notes.emplace_back(
+      verdict::CheckFinding found;
+      found.finding.code = FindingCode::nothing_judged;
+      found.finding.kind = "camera";
+      found.mesh = 0;
+      found.at = asked;
+      found.message =
           "the camera was not asked: tiles and meshes together, or tiles whose path does not say where they "
-          "lie, have no common place");
+          "lie, have no common place";
+      findings.push_back(std::move(found));
       return;
     }
     own = tile_stage(exam);
@@ -168,7 +182,7 @@ void against_camera(Examination& exam, const Stage& given, std::vector<verdict::
     found.finding.code = FindingCode::nothing_judged;
     found.finding.kind = "camera";
     found.mesh = 0;
-    found.at = camera.position;
+    found.at = asked;
     found.message = "the camera sees nothing of the mesh: no pixel was judged";
     findings.push_back(std::move(found));
   }
@@ -180,10 +194,9 @@ void against_camera(Examination& exam, const Stage& given, std::vector<verdict::
   found.finding.code = FindingCode::skirt_visible;
   found.finding.severity = Severity::hazard;
   found.finding.visibility = oracle::Visibility::visible;
-  std::uint32_t triangle = widest->first;
-  found.mesh = 0;
-  while (triangle >= exam.subjects[found.mesh].mesh.triangles.size())
-    triangle -= static_cast<std::uint32_t>(exam.subjects[found.mesh++].mesh.triangles.size());
+  const auto after = std::upper_bound(scene.first.begin(), scene.first.end(), widest->first);
+  found.mesh = static_cast<std::uint32_t>(after - scene.first.begin()) - 1;
+  const std::uint32_t triangle = widest->first - scene.first[found.mesh];
   const Subject& subject = exam.subjects[found.mesh];
   const auto& corners = subject.mesh.triangles[triangle];
   found.finding.triangles = {triangle};

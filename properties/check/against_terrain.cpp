@@ -27,6 +27,7 @@ constexpr int kErrorMapPx = 1024;
 Mesh surface_of(const Examination& exam) {
   Mesh out;
   for (const Subject& subject : exam.subjects) {
+    if (subject.tile && !subject.tile->drawn) continue;
     const auto base = static_cast<std::uint32_t>(out.positions.size());
     const Mesh& surface = subject.sheet.surface;
     const auto count = static_cast<std::uint32_t>(surface.positions.size());
@@ -93,7 +94,8 @@ class AgainstTerrain {
     const std::array<const Mesh*, 1> meshes{&mesh};
     const bool tiles = exam_.subjects.front().tile.has_value();
     laid_ = lay_over_dem({request.terrain, request.holes},
-                         tiles && request.placing == "guess" ? std::string("crs") : request.placing, meshes);
+                         tiles && request.placing == "guess" ? std::string("crs") : request.placing, meshes,
+                         tiles ? 1 : exam_.frame.unit_m);
     const Dem& dem = laid_.dem;
     if (tiles && !dem.geographic)
       throw InputError(
@@ -151,6 +153,7 @@ class AgainstTerrain {
     for (std::uint32_t k = 0; k < exam_.subjects.size(); ++k) {
       const Subject& subject = exam_.subjects[k];
       const verdict::Extent& box = subject.facts.box;
+      if (subject.tile && !subject.tile->drawn) continue;
       if (at.x < box.low.x || at.x > box.high.x || at.y < box.low.y || at.y > box.high.y) continue;
       const std::vector<Vec3>& places = subject.tile ? subject.places : subject.mesh.positions;
       for (std::uint32_t t = 0; t < subject.mesh.triangles.size(); ++t) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -109,6 +110,64 @@ class Between {
     exam_.between.push_back(std::move(out));
   }
 
+  static bool is_told(const Subject& subject, const verdict::CheckFinding& found) {
+    return std::any_of(subject.findings.begin(), subject.findings.end(), [&](const auto& told) {
+      return told.finding.code == found.finding.code && told.finding.at.x == found.finding.at.x &&
+             told.finding.at.y == found.finding.at.y && told.finding.area_m2 == found.finding.area_m2;
+    });
+  }
+
+  /// The first other mesh whose box holds the place.
+  [[nodiscard]] std::uint32_t other_below(std::uint32_t mesh, Vec3 at,
+                                          const std::vector<std::uint32_t>& of) const {
+    for (const std::uint32_t k : of) {
+      const verdict::Extent& box = exam_.subjects[k].facts.box;
+      if (k != mesh && at.x >= box.low.x && at.x <= box.high.x && at.y >= box.low.y && at.y <= box.high.y)
+        return k;
+    }
+    return verdict::kNoMesh;
+  }
+
+  /// A hole of one mesh is none where others fill it edge to edge: then no edge of its rim is left over in
+  /// the sum.
+  void drop_filled_holes(const Mesh& all, const oracle::ConformityReport& report,
+                         const std::vector<std::uint32_t>& of, const std::vector<std::size_t>& first_vertex) {
+    const auto is_hole = [](const verdict::CheckFinding& found) {
+      return found.finding.code == FindingCode::hole && !found.finding.vertices.empty();
+    };
+    const bool any = std::any_of(of.begin(), of.end(), [&](std::uint32_t k) {
+      return std::any_of(exam_.subjects[k].findings.begin(), exam_.subjects[k].findings.end(), is_hole);
+    });
+    if (!any) return;
+    std::vector<std::uint32_t> triangle_of(all.triangles.size());
+    std::iota(triangle_of.begin(), triangle_of.end(), 0u);
+    Mesh plan = all;  // what stands higher or lower fills it as well: the seam tells
+    for (Vec3& p : plan.positions) p.z = 0;
+    const oracle::Border border = oracle::border_of(plan, {plan, std::move(triangle_of), {}}, {}, &report);
+    std::vector<std::array<std::uint32_t, 2>> left;
+    for (const oracle::BorderEdge& edge : border.edges) left.push_back(edge.vertices);
+    std::sort(left.begin(), left.end());
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      Subject& subject = exam_.subjects[of[i]];
+      const auto base = static_cast<std::uint32_t>(first_vertex[i]);
+      const auto is_filled = [&](const verdict::CheckFinding& found) {
+        if (!is_hole(found)) return false;
+        const std::vector<std::uint32_t>& rim = found.finding.vertices;  // ascending
+        return std::none_of(rim.begin(), rim.end(), [&](std::uint32_t v) {
+          auto edge = std::lower_bound(left.begin(), left.end(), std::array<std::uint32_t, 2>{v + base, 0});
+          for (; edge != left.end() && (*edge)[0] == v + base; ++edge) {
+            if ((*edge)[1] >= base && std::binary_search(rim.begin(), rim.end(), (*edge)[1] - base))
+              return true;
+          }
+          return false;
+        });
+      };
+      const std::size_t filled = std::erase_if(subject.findings, is_filled);
+      subject.facts.conformity.hole -= filled;
+      if (filled > 0) subject.facts.domain += ", with the meshes that fill its holes";
+    }
+  }
+
   /// Overlaps and holes that no single mesh has: the sum of all meshes, its outline free.
   void judge_cover() {
     std::size_t triangles = 0, meshes = 0;
@@ -135,6 +194,7 @@ class Between {
     }
     if (meshes < 2 || triangles == 0) return;
     const oracle::ConformityReport report = oracle::check_conformity_without_outline(all);
+    drop_filled_holes(all, report, of, first_vertex);
     const auto owner = [&](const std::vector<std::size_t>& starts, std::size_t index) {
       return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), index) -
                                       starts.begin()) -
@@ -149,13 +209,19 @@ class Between {
       for (const std::uint32_t t : finding.triangles) owners.push_back(owner(first_triangle, t));
       std::sort(owners.begin(), owners.end());
       owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
-      if (owners.size() < 2 && finding.code != FindingCode::nothing_judged) continue;
       const std::uint32_t a = owners.empty() ? of[0] : of[owners[0]];
       // Indices of the sum mean nothing to anybody.
       finding.vertices.clear();
       finding.triangles.clear();
       verdict::CheckFinding out = as_check_finding(finding, exam_.subjects[a], a, exam_.frame);
-      if (owners.size() > 1) out.other_mesh = of[owners[1]];
+      if (owners.size() > 1) {
+        out.other_mesh = of[owners[1]];
+      } else if (finding.code != FindingCode::nothing_judged) {
+        // Of meshes that lie on each other the rim of what they share may be one's alone. What the one has by
+        // itself it has told.
+        if (is_told(exam_.subjects[a], out)) continue;
+        out.other_mesh = other_below(a, finding.at, of);
+      }
       if (finding.code == FindingCode::hole) ++exam_.verdict.conformity.hole;
       if (finding.code == FindingCode::overlap) ++exam_.verdict.conformity.overlap;
       if (finding.code == FindingCode::duplicate) ++exam_.verdict.conformity.duplicate;
@@ -240,7 +306,7 @@ void list_gaps(Examination& exam, const Pair& pair, const oracle::Seam& seam) {
         &other = exam.subjects[pair.second].tile;
   const bool levels = tile && other && tile->level != other->level;
   const auto is_rounding = [&](const oracle::SeamGap& gap) {
-    return gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m;
+    return gap.sign != 0 && std::fabs(gap.gap_m) * unit <= pair.quantum_m * verdict::kQuantumSlack;
   };
   // Rounding explains that two heights of one place differ, not that one of them is missing.
   const auto is_fault = [&](const oracle::SeamGap& gap) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -20,9 +21,6 @@ namespace {
 using oracle::FindingCode;
 using oracle::Severity;
 using verdict::CheckFinding;
-
-/// Of the same code, this many are listed for each mesh; counts are complete.
-constexpr std::size_t kListedOfACode = 100;
 
 /// What explains the rest comes first: a mesh laid wrong over its DEM makes every other figure meaningless.
 int rank(const CheckFinding& found) {
@@ -86,6 +84,13 @@ void gather(Examination& exam, std::vector<CheckFinding> more) {
     verdict.tile_faults += found.finding.code == FindingCode::tile_encoding;
     ++verdict.totals[found.finding.code];
   }
+  // Of pairs, which may be many more than triangles, only those to list were kept.
+  for (const Subject& subject : exam.subjects) {
+    const std::size_t pairs = subject.facts.self_intersections;
+    if (pairs <= kListedOfACode) continue;
+    verdict.totals[FindingCode::self_intersection] += pairs - kListedOfACode;
+    verdict.findings_total += pairs - kListedOfACode;
+  }
   // Tiles were judged on their lattice; the frame of the check is longitude and latitude.
   for (CheckFinding& found : all) {
     if (found.mesh != verdict::kNoMesh && exam.subjects[found.mesh].tile &&
@@ -104,6 +109,17 @@ void gather(Examination& exam, std::vector<CheckFinding> more) {
   }
 }
 
+void tell_unjudged(Examination& exam) {
+  for (const Subject& subject : exam.subjects) {
+    if (subject.facts.terrain || subject.facts.self_intersections_judged) continue;
+    exam.verdict.notes.push_back(
+        fmt::format("{}: self-intersections were not judged: {}", subject.facts.name,
+                    subject.facts.triangles > kMostIntersected
+                        ? fmt::format("more than {} triangles", kMostIntersected)
+                        : "it is no oriented manifold; what makes it none is told by itself"));
+  }
+}
+
 }  // namespace
 }  // namespace checking
 
@@ -117,6 +133,7 @@ CheckOutcome check(const CheckRequest& request) {
   // Each by itself: what threads do in which order nobody sees.
   tbb::parallel_for(std::size_t{0}, exam.subjects.size(),
                     [&](std::size_t k) { judge_inside(exam.subjects[k], exam); });
+  tell_unjudged(exam);
   apply_stated_skirts(exam);
   judge_between(exam);
   CheckOutcome out;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +43,6 @@ struct CheckRequest {
   bool strict = false;   ///< hazards make a mesh faulty, too
   bool pictures = true;  ///< make CheckPictures
   int jobs = 0;
-  std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
 /// What is found, and what to show of it.

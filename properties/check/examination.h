@@ -19,6 +19,12 @@
 /// ones before it left in the examination.
 namespace plumbline::checking {
 
+/// Of the same code, this many are listed for each mesh; counts are complete.
+inline constexpr std::size_t kListedOfACode = 100;
+/// Finding self-intersections takes CGAL some five seconds for two million triangles; beyond, it is left out
+/// and said so.
+inline constexpr std::size_t kMostIntersected = 4'000'000;
+
 /// Which of the files' axes is up. Everything is judged with z up, in the files' own unit and digits: axes
 /// are exchanged, never scaled, so that what was exact stays exact.
 struct Frame {
@@ -49,6 +55,9 @@ struct TilePlace {
   Vec2 metres_per_step{1, 1};       ///< one lattice step in the tile's middle
   double low_m = 0, high_m = 0;     ///< the heights' range
   std::vector<std::int32_t> steps;  ///< per vertex: its height in it
+  /// None of its children is there. Over a DEM and in a picture only such tiles are looked at: a client draws
+  /// the deepest that it has, and levels lie above each other.
+  bool drawn = true;
   [[nodiscard]] double quantum_m() const { return (high_m - low_m) / 32767; }
 };
 

@@ -25,33 +25,59 @@ using oracle::Severity;
 /// An edge this much shorter than the median is a slip of the maker, not detail: where the others are a pixel
 /// long it is a thousandth of one.
 constexpr double kShortEdgeShare = 1e-3;
-/// Finding self-intersections takes CGAL some five seconds for two million triangles; beyond, it is left out
-/// and said so.
-constexpr std::size_t kMostIntersected = 4'000'000;
 
-/// The heights that walls span over each plan point.
+/// What walls fill: each stands on two points of the plan, and spans heights over one of them.
 class WallSpans {
  public:
-  explicit WallSpans(const Subject& subject) {
+  explicit WallSpans(const Subject& subject) : positions_(subject.mesh.positions) {
     for (const std::uint32_t t : subject.sheet.walls) {
-      for (const std::uint32_t v : subject.mesh.triangles[t]) {
-        const Vec3& p = subject.mesh.positions[v];
-        const auto [slot, is_new] = spans_.try_emplace({p.x, p.y}, std::pair{p.z, p.z});
-        slot->second.first = std::min(slot->second.first, p.z);
-        slot->second.second = std::max(slot->second.second, p.z);
+      const auto& corners = subject.mesh.triangles[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &p = positions_[corners[k]], &q = positions_[corners[(k + 1) % 3]],
+                   &r = positions_[corners[(k + 2) % 3]];
+        if (p.x == q.x && p.y == q.y)
+          spans_[{place(p), place(r)}].emplace_back(std::min(p.z, q.z), std::max(p.z, q.z));
       }
     }
+    for (auto& entry : spans_) std::sort(entry.second.begin(), entry.second.end());
   }
-  /// Whether walls fill the gap of a crack at its place.
+  /// Whether walls that stand on the crack's own edges fill it: over each of its points that has two heights,
+  /// towards each other point. A wall that ends there, a skirt outside of it, fills nothing.
   [[nodiscard]] bool fill(const Finding& crack) const {
-    const auto found = spans_.find({crack.at.x, crack.at.y});
-    const double other = crack.at.z - crack.gap_m;
-    return found != spans_.end() && found->second.first <= std::min(crack.at.z, other) &&
-           found->second.second >= std::max(crack.at.z, other);
+    std::map<Place, Span> heights;
+    const auto note = [&](const Vec3& p, double z) {
+      const auto [slot, is_new] = heights.try_emplace(place(p), z, z);
+      slot->second = {std::min(slot->second.first, z), std::max(slot->second.second, z)};
+    };
+    for (const std::uint32_t v : crack.vertices) note(positions_[v], positions_[v].z);
+    note(crack.at, crack.at.z);
+    note(crack.at, crack.at.z - crack.gap_m);
+    for (const auto& [here, span] : heights) {
+      if (span.first == span.second) continue;
+      for (const auto& other : heights) {
+        if (other.first != here && !covered(here, other.first, span)) return false;
+      }
+    }
+    return heights.size() > 1;
   }
 
  private:
-  std::map<std::pair<double, double>, std::pair<double, double>> spans_;
+  using Place = std::pair<double, double>;
+  using Span = std::pair<double, double>;
+  static Place place(const Vec3& p) { return {p.x, p.y}; }
+
+  [[nodiscard]] bool covered(const Place& here, const Place& towards, const Span& gap) const {
+    const auto found = spans_.find({here, towards});
+    if (found == spans_.end()) return false;
+    double reached = gap.first;
+    for (const Span& span : found->second) {
+      if (span.first <= reached) reached = std::max(reached, span.second);
+    }
+    return reached >= gap.second && found->second.front().first <= gap.first;
+  }
+
+  const std::vector<Vec3>& positions_;
+  std::map<std::pair<Place, Place>, std::vector<Span>> spans_;
 };
 
 /// Per vertex: whether a triangle names it, and it is finite.
@@ -235,11 +261,11 @@ class Inside {
     facts.conformity = report.counts;
     for (const Finding& finding : report.findings) add(finding);
     if (subject_.mesh.triangles.size() > kMostIntersected) return;
-    const auto pairs = oracle::self_intersections(subject_.mesh);
-    if (!pairs) return;  // no manifold: judged by its own findings, and the text claims nothing
-    facts.self_intersections = pairs->size();
+    const auto some = oracle::some_self_intersections(subject_.mesh, kListedOfACode);
+    if (!some) return;  // no manifold: judged by its own findings, and the text claims nothing
+    facts.self_intersections = some->total;
     facts.self_intersections_judged = true;
-    for (const auto& pair : *pairs) {
+    for (const oracle::TrianglePair& pair : some->pairs) {
       Finding finding;
       finding.code = FindingCode::self_intersection;
       finding.triangles = {pair[0], pair[1]};

@@ -77,7 +77,11 @@ Subject read_mesh(const fs::path& path) {
   MeshFile file = read_mesh_file(path);
   subject.facts.file = path.generic_string();
   subject.facts.format = file.format;
-  subject.mesh = triangulate(file);
+  try {
+    subject.mesh = triangulate(file);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", one_line(path.generic_string()), error.what()));
+  }
   if (subject.mesh.triangles.empty())
     throw InputError(fmt::format("{}: the mesh has no triangle; there is nothing to check",
                                  one_line(path.generic_string())));
@@ -91,19 +95,36 @@ struct Inputs {
   std::vector<TileSource> tiles;
 };
 
+/// Tiles are neighbours by their numbers: of two sets each number means two places, or one place twice.
+void require_one_set(const std::vector<TileSource>& tiles) {
+  const TileSource* first = nullptr;
+  for (const TileSource& tile : tiles) {
+    if (!tile.address) continue;
+    if (first == nullptr) first = &tile;
+    std::error_code error;
+    if (tile.root == first->root || fs::equivalent(tile.root, first->root, error)) continue;
+    throw InputError(fmt::format(
+        "{} and {} are two sets of tiles; check each by itself, and let 'plumbline compare' tell what "
+        "differs between the two verdicts",
+        one_line(first->root.generic_string()), one_line(tile.root.generic_string())));
+  }
+}
+
 Inputs sort_out(const CheckRequest& request, std::vector<std::string>& notes,
                 std::vector<verdict::CheckFinding>& findings) {
   Inputs out;
+  std::map<fs::path, std::optional<TileGrid>> layers;
   for (const fs::path& input : request.inputs) {
     std::error_code error;
     if (fs::is_directory(input, error)) {
       add_tile_folder(input, out.tiles, notes, findings);
     } else if (input.extension() == ".terrain") {
-      add_tile_file(input, out.tiles, notes);
+      add_tile_file(input, out.tiles, notes, layers);
     } else {
       out.meshes.push_back(input);
     }
   }
+  require_one_set(out.tiles);
   std::sort(out.tiles.begin(), out.tiles.end(), [](const TileSource& a, const TileSource& b) {
     return std::tie(a.address, a.path) < std::tie(b.address, b.path);
   });
@@ -222,6 +243,7 @@ void load(Examination& exam) {
   }
   name_meshes(exam.subjects);
   settle_frame(exam);
+  if (!exam.request.terrain.empty() || exam.request.camera) choose_drawn(exam);
 }
 
 }  // namespace plumbline::checking

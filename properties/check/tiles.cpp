@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The plumbline authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Quantized-mesh tiles: each against its format, neighbours of equal and of neighbouring levels against each
-// other, levels against their neighbours'.
+// Quantized-mesh tiles: neighbours of equal and of neighbouring levels against each other, levels against
+// their neighbours'; the skirts that a client adds.
 #include "properties/check/tiles.h"
 
 #include <algorithm>
@@ -12,32 +12,21 @@
 
 #include <fmt/format.h>
 
-#include "oracle/tile_conformance.h"
 #include "properties/check/between.h"
 #include "scenarios/error.h"
-#include "scenarios/portable_math.h"
-#include "scenarios/tiles/ecef.h"
-#include "scenarios/whole_file.h"
 
 namespace plumbline::checking {
 namespace {
 
-namespace fs = std::filesystem;
 using oracle::FindingCode;
 using oracle::Severity;
 
 /// A tile's place, with y from the south: what neighbours are found by.
 using Key = std::tuple<int, std::uint32_t, std::uint32_t>;
 
-Vec2 metres_per_step(const TileBounds& bounds) {
-  const double middle = 0.5 * (bounds.south + bounds.north) * kRadiansPerDegree;
-  const double per_degree = kWgs84SemiMajorM * kRadiansPerDegree;
-  return {(bounds.east - bounds.west) * per_degree * exact_cos(middle) / kTileSteps,
-          (bounds.north - bounds.south) * per_degree / kTileSteps};
-}
-
-/// Level 0 of CesiumJS's terrain: a quarter of the equator over 65 samples and two tiles, metres.
-constexpr double kCesiumLevelZeroErrorM = 77067.34;
+/// Level 0 of CesiumJS's terrain: a quarter of the equator over 65 samples, metres; divided by the number of
+/// tiles around the world.
+constexpr double kCesiumLevelZeroErrorM = 2 * 77067.34;
 constexpr double kCesiumSkirtErrors = 5;
 
 class TileSeams {
@@ -66,6 +55,12 @@ class TileSeams {
     }
     judge_balance();
     report_lattice();
+    if (columns_between_levels_ > 0)
+      exam_.verdict.notes.push_back(
+          fmt::format("{} of the borders between levels run along a column and were not compared: with "
+                      "EPSG:3857 latitude "
+                      "runs evenly inside a tile only, so places on them agree at the tiles' corners alone",
+                      columns_between_levels_));
   }
 
  private:
@@ -105,15 +100,16 @@ class TileSeams {
     return out;
   }
 
-  /// The border on one side, in steps of `finest`, relative to the south-west corner of `origin`.
+  /// The border on one side, in steps of `finest`, relative to the south-west corner of `origin`; `turns`
+  /// times around the world to the east.
   oracle::Border side_of(std::uint32_t k, TileSide side, int finest, const TilePlace& origin,
-                         bool wraps) const {
+                         double turns) const {
     const TilePlace& t = tile(k);
     const auto steps = [&](const TilePlace& of) {
       return std::ldexp(kTileSteps, finest - of.level);  // width of a tile
     };
     Vec2 base{t.x * steps(t) - origin.x * steps(origin), t.y * steps(t) - origin.y * steps(origin)};
-    if (wraps) base.x += (base.x < 0 ? 1 : -1) * t.columns * steps(t);
+    base.x += turns * static_cast<double>(t.columns) * steps(t);
     const double scale = std::ldexp(1.0, finest - t.level);
     const auto on_side = [&](Vec2 p) {
       switch (side) {
@@ -160,11 +156,18 @@ class TileSeams {
 
   void compare(std::uint32_t a, std::uint32_t b, TileSide side) {
     const TilePlace &first = tile(a), &second = tile(b);
+    const bool along_a_column = side == TileSide::east || side == TileSide::west;
+    if (first.grid.projection == TileProjection::mercator && along_a_column && first.level != second.level) {
+      ++columns_between_levels_;
+      return;
+    }
     const int finest = std::max(first.level, second.level);
-    const bool wraps =
-        (side == TileSide::east && first.x == first.columns - 1) || (side == TileSide::west && first.x == 0);
-    const oracle::Border ours = side_of(a, side, finest, first, false);
-    const oracle::Border theirs = side_of(b, opposite(side), finest, first, wraps);
+    // Beyond the antimeridian lies the world's other end.
+    const double turns = side == TileSide::east && first.x == first.columns - 1 ? 1
+                         : side == TileSide::west && first.x == 0               ? -1
+                                                                                : 0;
+    const oracle::Border ours = side_of(a, side, finest, first, 0);
+    const oracle::Border theirs = side_of(b, opposite(side), finest, first, turns);
     const double scale = std::ldexp(1.0, first.level - finest);
     const auto seam = oracle::compare_borders(ours, theirs, first.metres_per_step * scale);
     if (!seam) return;  // one of them does not reach the side: its own finding
@@ -308,119 +311,15 @@ class TileSeams {
   /// Near misses between levels: the first, how many vertices, on how many borders.
   std::optional<verdict::CheckFinding> lattice_;
   std::size_t lattice_vertices_ = 0, lattice_borders_ = 0;
+  std::size_t columns_between_levels_ = 0;
 };
 
 }  // namespace
 
-void add_tile_folder(const fs::path& folder, std::vector<TileSource>& tiles, std::vector<std::string>& notes,
-                     std::vector<verdict::CheckFinding>& findings) {
-  const TileSet set = read_tile_set(folder);
-  for (const std::string& note : set.layer.notes) notes.push_back(note);
-  for (const TileFile& file : set.tiles)
-    tiles.push_back({file.path, tile_name(file.address) + ".terrain", file.address, set.layer.grid});
-  if (!set.misplaced.empty())
-    notes.push_back(fmt::format("{} tiles lie in no place of the grid and were left out, the first: {}",
-                                set.misplaced.size(), set.misplaced.front().generic_string()));
-  const TileAvailability availability = compare_availability(set);
-  if (availability.missing > 0) {
-    verdict::CheckFinding& found = findings.emplace_back();
-    found.finding.code = FindingCode::tile_encoding;
-    found.finding.kind = "missing_tile";
-    std::string first;
-    if (!availability.first_missing.empty()) {
-      const TileAddress& address = availability.first_missing.front();
-      const Vec2 middle = set.layer.grid.position_deg(address, kTileSteps * 0.5, kTileSteps * 0.5);
-      found.at = {middle.x, middle.y, 0};
-      first = ", the first: " + tile_name(address);
-    }
-    found.message = fmt::format(
-        "{} of {} tiles that layer.json advertises {} not there{}; clients ask for {} and "
-        "get nothing",
-        availability.missing, availability.advertised, availability.missing == 1 ? "is" : "are", first,
-        availability.missing == 1 ? "it" : "them");
-  }
-  if (availability.unadvertised > 0)
-    notes.push_back(
-        fmt::format("{} tiles are there that layer.json does not advertise, the first: {}; clients never "
-                    "ask for them",
-                    availability.unadvertised, tile_name(availability.first_unadvertised.front())));
+double cesium_skirt_m(const TileGrid& grid, int level) {
+  const double error_m = kCesiumLevelZeroErrorM / grid.columns(0);
+  return std::ldexp(kCesiumSkirtErrors * error_m, -level);
 }
-
-void add_tile_file(const fs::path& file, std::vector<TileSource>& tiles, std::vector<std::string>& notes) {
-  TileSource source{file, file.generic_string(), tile_address(file), {}};
-  if (!source.address) {
-    notes.push_back(
-        fmt::format("{} does not say where it lies: its path does not end in "
-                    "level/x/y.terrain, so it is judged by itself alone",
-                    file.generic_string()));
-  } else {
-    source.name = tile_name(*source.address) + ".terrain";
-    const fs::path layer = fs::absolute(file).parent_path().parent_path().parent_path() / "layer.json";
-    std::error_code error;
-    if (fs::is_regular_file(layer, error)) {
-      source.grid = parse_tile_layer(read_whole_file(layer, "layer.json"), layer.generic_string()).grid;
-    } else if (std::find(notes.begin(), notes.end(), kNoLayer) == notes.end()) {
-      notes.emplace_back(kNoLayer);
-    }
-    if (!source.grid.contains(*source.address))
-      throw InputError(fmt::format("{}: the grid has no such tile; level, column and row must fit",
-                                   one_line(file.generic_string())));
-  }
-  tiles.push_back(std::move(source));
-}
-
-Subject read_tile(const TileSource& source) {
-  const QuantizedMesh tile = read_quantized_mesh(source.path);
-  Subject subject;
-  subject.facts.file = source.name;
-  subject.facts.format = "quantized-mesh";
-  TilePlace& place = subject.tile.emplace();
-  place.low_m = static_cast<double>(tile.min_height_m);
-  place.high_m = static_cast<double>(tile.max_height_m);
-  std::optional<TileBounds> bounds;
-  if (source.address) {
-    bounds = source.grid.bounds_deg(*source.address);
-    place.placed = true;
-    place.grid = source.grid;
-    place.address = *source.address;
-    place.level = source.address->level;
-    place.x = source.address->x;
-    place.y = source.grid.row_from_south(*source.address);
-    place.columns = source.grid.columns(place.level);
-    place.metres_per_step = metres_per_step(*bounds);
-  }
-  for (std::size_t k = 0; k < tile.vertices(); ++k) {
-    const double height = tile.height_m(k);
-    subject.mesh.positions.push_back(
-        {static_cast<double>(tile.u[k]), static_cast<double>(tile.v[k]), height});
-    if (source.address) {
-      const Vec2 deg = source.grid.position_deg(*source.address, tile.u[k], tile.v[k]);
-      subject.places.push_back({deg.x, deg.y, height});
-    }
-    place.steps.push_back(tile.height[k]);
-  }
-  subject.mesh.triangles = tile.triangles;
-  if (tile.normals.size() == tile.vertices()) subject.normals = tile.normals;
-  for (const oracle::TileFinding& found : oracle::check_tile(tile, bounds)) {
-    verdict::CheckFinding out = as_check_finding(found.finding, subject, verdict::kNoMesh, {});
-    out.message = found.text;
-    subject.findings.push_back(std::move(out));
-  }
-  return subject;
-}
-
-void quantize_border(Subject& subject) {
-  const TilePlace& tile = *subject.tile;
-  for (oracle::BorderEdge& edge : subject.border.edges) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const std::int32_t step = tile.steps[edge.vertices[k]];
-      if (step < 0 || step > kTileSteps) continue;  // out of range: reported, and compared as decoded
-      edge.height[k] = {tile.low_m, tile.high_m, static_cast<std::uint32_t>(step), 0};
-    }
-  }
-}
-
-double cesium_skirt_m(int level) { return std::ldexp(kCesiumSkirtErrors * kCesiumLevelZeroErrorM, -level); }
 
 void apply_stated_skirts(Examination& exam) {
   const CheckRequest& request = exam.request;
@@ -432,19 +331,23 @@ void apply_stated_skirts(Examination& exam) {
       if (!subject.tile || !subject.tile->placed)
         throw InputError(fmt::format("--skirt cesium: {} has no level; give the skirt's height in metres",
                                      subject.facts.file));
-      depth_m = cesium_skirt_m(subject.tile->level);
-    }
-    const double drop = depth_m / (subject.tile ? 1 : exam.frame.unit_m);
-    for (oracle::BorderEdge& edge : subject.border.edges) {
-      edge.has_skirt = drop > 0;
-      for (std::size_t k = 0; k < 2; ++k) {
-        edge.foot[k] = edge.height[k];
-        edge.foot[k].drop = drop;
-      }
+      depth_m = cesium_skirt_m(subject.tile->grid, subject.tile->level);
     }
     subject.facts.skirt.stated = true;
-    subject.facts.skirt.least_depth_m = depth_m;
-    subject.facts.skirt.border_share = drop > 0 ? 1 : 0;
+    if (!(depth_m > 0)) continue;
+    // What hangs in the file hangs there still: the deeper of the two hides.
+    const double drop = depth_m / (subject.tile ? 1 : exam.frame.unit_m);
+    for (oracle::BorderEdge& edge : subject.border.edges) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        oracle::ExactHeight foot = edge.height[k];
+        foot.drop = drop;
+        if (!edge.has_skirt || foot.metres() < edge.foot[k].metres()) edge.foot[k] = foot;
+      }
+      edge.has_skirt = true;
+    }
+    verdict::SkirtFigures& skirt = subject.facts.skirt;
+    skirt.least_depth_m = skirt.border_share == 1 ? std::max(skirt.least_depth_m, depth_m) : depth_m;
+    skirt.border_share = 1;
   }
 }
 

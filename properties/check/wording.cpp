@@ -89,7 +89,8 @@ std::string finding_message(const Finding& finding, double unit_m) {
       return fmt::format("triangles {} and {} cut through each other", finding.triangles.at(0),
                          finding.triangles.at(1));
     case FindingCode::nothing_judged:
-      return "the borders are too many to tell holes and overlaps between the meshes: check fewer at a time";
+      return "the borders are too many to tell holes and overlaps: check fewer meshes, or smaller ones, at a "
+             "time";
     default:
       return std::string(oracle::finding_name(finding.code));
   }
@@ -104,7 +105,8 @@ verdict::CheckFinding as_check_finding(const Finding& finding, const Subject& su
   if (subject.tile) {
     const Vec2 step = subject.tile->metres_per_step;
     out.finding.area_m2 *= step.x * step.y;
-    out.finding.distance_m *= std::sqrt(step.x * step.y);
+    // What the format says of a tile is in metres already.
+    if (finding.code != FindingCode::tile_encoding) out.finding.distance_m *= std::sqrt(step.x * step.y);
     out.at = finding.at;  // a tile whose path does not say where it lies has its lattice alone
     if (subject.tile->placed) {
       const Vec2 deg = subject.tile->grid.position_deg(subject.tile->address, finding.at.x, finding.at.y);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,19 +51,28 @@ void walk(const Json& object, const std::string& prefix, const std::string& sett
   }
 }
 
-/// Meshes by a name that does not depend on the folder they were checked in.
+/// Meshes by a name that does not depend on the folder they were checked in. Tiles have theirs from their
+/// place in the grid: level, column, row.
 class MeshNames {
  public:
   MeshNames(const Json& meshes, const Place& place) {
     for (const Json& mesh : meshes) files_.push_back(text_at(mesh, "file", place));
-    std::string folder = files_.empty() ? "" : files_.front().substr(0, files_.front().rfind('/') + 1);
-    for (const std::string& file : files_) {
+    std::vector<bool> is_tile;
+    std::optional<std::string> common;
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+      const auto format = meshes[k].find("format");
+      is_tile.push_back(format != meshes[k].end() && *format == "quantized-mesh");
+      if (is_tile.back()) continue;
+      const std::string& file = files_[k];
+      if (!common) common = file.substr(0, file.rfind('/') + 1);
+      std::string& folder = *common;
       while (!file.starts_with(folder))
         folder.resize(folder.size() < 2 ? 0 : folder.rfind('/', folder.size() - 2) + 1);
     }
     std::map<std::string, int> seen;
-    for (const std::string& file : files_) {
-      std::string name = file.substr(folder.size());
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+      const std::string& file = files_[k];
+      std::string name = is_tile[k] ? file : file.substr(common->size());
       const int times = ++seen[name];
       if (times > 1) name += fmt::format(" ({})", times);
       by_file_.try_emplace(file, name);
@@ -98,6 +108,7 @@ FindingReading read_finding(const Json& json, const MeshNames& names, const Plac
   finding.code = code->get<int>();
   if (json.contains("name")) finding.name = text_at(json, "name", place);
   if (json.contains("kind")) finding.kind = text_at(json, "kind", place);
+  if (json.contains("severity")) finding.hazard = text_at(json, "severity", place) == "hazard";
   finding.mesh = names.named(json, "mesh", place);
   if (const std::string other = names.named(json, "other_mesh", place); !other.empty())
     finding.mesh += " | " + other;
@@ -203,6 +214,7 @@ ResultFile read_check(const Json& root, const Place& place) {
   }
   Subject& all = file.subjects.emplace_back();
   walk(whole, "", "", all, file.settings, place);
+  file.counts_by_code = whole.contains("findings_by_code") && whole["findings_by_code"].is_object();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     Subject subject;
     subject.id = names[m];

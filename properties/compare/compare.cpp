@@ -294,8 +294,9 @@ class Comparer {
       const Change change = !certain ? Change::changed : more ? Change::worse : Change::better;
       Difference& one = add(difference(
           change, Matter::finding, finding.mesh,
-          fmt::format("{} {}{}{} at {}, {}, {}", finding.code, finding.name, finding.kind.empty() ? "" : ": ",
-                      finding.kind, finding.at[0], finding.at[1], finding.at[2])));
+          fmt::format("{} {}{}{}{} at {}, {}, {}", finding.code, finding.name,
+                      finding.kind.empty() ? "" : ": ", finding.kind, finding.hazard ? " (hazard)" : "",
+                      finding.at[0], finding.at[1], finding.at[2])));
       const auto state = [](std::size_t number) {
         return number == 0 ? std::string(kNothing) : number == 1 ? "found" : fmt::format("found {}×", number);
       };
@@ -333,14 +334,31 @@ std::string pair_single_meshes(ResultFile& before, const ResultFile& after) {
   return fmt::format("{} before is compared with {} after", from, to);
 }
 
+/// A code that one check counted and the other did not find.
+void tell_codes_not_found(ResultFile& of, const ResultFile& other) {
+  if (!of.counts_by_code || of.subjects.empty() || other.subjects.empty()) return;
+  std::set<std::string_view> told;
+  for (const Reading& reading : of.subjects.front().readings) told.insert(reading.path);
+  std::vector<Reading> missing;
+  for (const Reading& reading : other.subjects.front().readings) {
+    if (!reading.path.starts_with(verdict::kFindingsByCode) || told.count(reading.path) > 0) continue;
+    missing.push_back(reading);
+    missing.back().value = 0;
+  }
+  auto& readings = of.subjects.front().readings;
+  readings.insert(readings.end(), missing.begin(), missing.end());
+}
+
 }  // namespace
 
-verdict::Comparison compare_results(ResultFile before, const ResultFile& after, double tolerance) {
+verdict::Comparison compare_results(ResultFile before, ResultFile after, double tolerance) {
   if (before.schema != after.schema) {
     throw InputError(fmt::format("{} is of schema \"{}\", {} of \"{}\"; compare two of one kind",
                                  one_line(before.name), before.schema, one_line(after.name), after.schema));
   }
   const std::string note = pair_single_meshes(before, after);
+  tell_codes_not_found(before, after);
+  tell_codes_not_found(after, before);
   Comparison comparison = Comparer(before, after, tolerance).compare();
   if (!note.empty()) comparison.notes.insert(comparison.notes.begin(), note);
   return comparison;

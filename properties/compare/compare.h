@@ -16,6 +16,6 @@ namespace plumbline::compare {
 /// change, but a new gate that fails, a new finding and something new that judged nothing are worse. Where a
 /// file lists its worst findings only, findings that appear or vanish are changes, and the counts decide.
 /// Throws InputError if the schemas differ. Requires: 0 ≤ tolerance < 1.
-verdict::Comparison compare_results(ResultFile before, const ResultFile& after, double tolerance = 0);
+verdict::Comparison compare_results(ResultFile before, ResultFile after, double tolerance = 0);
 
 }  // namespace plumbline::compare

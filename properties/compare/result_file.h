@@ -44,11 +44,12 @@ struct GateReading {
   bool pass = false;
 };
 
-/// A finding is known by its code, kind, mesh and place to the last bit.
+/// A finding is known by its code, kind, severity, mesh and place to the last bit.
 struct FindingReading {
   int code = 0;
   std::string name, kind, mesh;
   std::array<double, 3> at{};
+  bool hazard = false;  ///< what was one and is a fault now is another finding
   auto operator<=>(const FindingReading&) const = default;
 };
 
@@ -61,6 +62,7 @@ struct ResultFile {
   std::vector<GateReading> gates;
   std::vector<std::string> vacuous;
   std::vector<FindingReading> findings;
+  bool counts_by_code = false;    ///< a code that is not in "findings_by_code" was found no time
   bool findings_complete = true;  ///< false: the file lists the worst only, though its counts are complete
 };
 

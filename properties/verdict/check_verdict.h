@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -43,6 +44,7 @@ struct SkirtFigures {
 /// One mesh file, or tile, that was read.
 struct CheckedMesh {
   std::string file;     ///< as given, or inside the folder that was given: "9/533/383.terrain"
+  std::string path{};   ///< where it lies; empty: `file` is that, too
   std::string name{};   ///< what sentences call it: `file` without the folder that all have in common
   std::string format;   ///< "PLY", "quantized-mesh", …
   bool terrain = true;  ///< a surface over a plan; false: an object in space
@@ -67,7 +69,11 @@ struct CheckFinding {
   std::uint32_t other_mesh = kNoMesh;  ///< between two meshes: the other one
   Vec3 at;                             ///< in the coordinates of the file (tiles: longitude, latitude, m)
   std::string message;                 ///< one sentence: what, how much, what follows
+  std::string file{};                  ///< of a finding of no mesh: the file that it speaks of
 };
+
+/// A gap of one step of height is that also in double: seams.h rounds gaps by at most this much.
+inline constexpr double kQuantumSlack = 1 + 0x1p-19;
 
 /// Three states, never mixed.
 enum class SeamState {
@@ -99,6 +105,11 @@ struct SeamVerdict {
   double normal_max_deg = 0;  ///< largest angle between the two normals at a shared vertex; NaN: no normals
   int level = -1, other_level = -1;  ///< of tiles; -1: no tiles
 };
+
+/// Whether a gap of the seam is no more than the rounding of the two sides' heights.
+inline bool is_rounding(const SeamVerdict& seam, double gap_m) {
+  return std::fabs(gap_m) <= seam.quantum_m * kQuantumSlack;
+}
 
 /// Against a DEM.
 struct TerrainVerdict {

@@ -57,8 +57,11 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, Size>& 
 
 bool is_about_findings(const Difference& one) {
   if (one.matter == Matter::finding || one.matter == Matter::vacuous) return true;
+  // A set that was sound, or a mesh that was judged: without them a list of findings is short for nothing.
+  if (one.matter == Matter::verdict || one.matter == Matter::run) return one.change == Change::worse;
   if (one.matter != Matter::figure) return false;
-  if (one.what.starts_with("conformity.") || one.what == "findings_total" || one.what == "tile_faults")
+  if (one.what.starts_with("conformity.") || one.what.starts_with(kFindingsByCode) ||
+      one.what == "findings_total" || one.what == "tile_faults")
     return true;
   const auto known = figures();
   const auto figure = std::ranges::find(known, one.what, &Figure::path);
@@ -71,6 +74,7 @@ bool is_about_findings(const Difference& one) {
 Direction figure_direction(std::string_view path) {
   constexpr std::string_view kGroup = "conformity.";  // of checks; a run's counts stand alone
   if (path.starts_with(kGroup)) path.remove_prefix(kGroup.size());
+  if (path.starts_with(kFindingsByCode)) return Direction::more_is_worse;
   if (is_one_of(path, kLessIsWorse)) return Direction::less_is_worse;
   if (is_one_of(path, kDescribe)) return Direction::neither;
   const auto known = figures();

@@ -18,6 +18,9 @@ enum class Direction {
   neither,  ///< a description ("triangles" are cheaper or dearer, not sounder), or a name not known here
 };
 
+/// How the paths of a check's counts begin: "findings_by_code.302".
+inline constexpr std::string_view kFindingsByCode = "findings_by_code.";
+
 /// The direction of a figure of a run (Figure::path) or of a check ("vertical_m.certain_max",
 /// "conformity.crack", "crack"); of signed gaps, their size counts.
 Direction figure_direction(std::string_view path);

@@ -146,12 +146,7 @@ void take_extensions(Bytes& in, QuantizedMesh& tile) {
   tile.trailing_bytes += in.left();
 }
 
-QuantizedMesh decode(std::string_view bytes, std::string_view name) {
-  // One byte says which children there are; then the water mask.
-  constexpr std::size_t kHeightmap = 65 * 65 * 2 + 1;
-  if (bytes.size() == kHeightmap + 1 || bytes.size() == kHeightmap + 65536)
-    throw InputError(fmt::format("{}: {} bytes are a tile of heightmap-1.0; quantized-mesh-1.0 is read here",
-                                 one_line(name), bytes.size()));
+QuantizedMesh decode_mesh(std::string_view bytes, std::string_view name) {
   Bytes in(bytes, name);
   QuantizedMesh tile;
   tile.center = take_point(in, "the header's center");
@@ -179,6 +174,28 @@ QuantizedMesh decode(std::string_view bytes, std::string_view name) {
   }
   take_extensions(in, tile);
   return tile;
+}
+
+/// As a tile of heightmap-1.0 has: heights, a byte that says which children there are, the water mask.
+bool has_size_of_heightmap(std::size_t bytes) {
+  constexpr std::size_t kHeights = 65 * 65 * 2, kOneByteMask = 1, kWholeMask = 256 * 256;
+  return bytes == kHeights + 1 + kOneByteMask || bytes == kHeights + 1 + kWholeMask;
+}
+
+/// A sound tile may have that size, too: only what is none is called by the other format's name.
+QuantizedMesh decode(std::string_view bytes, std::string_view name) {
+  const auto name_the_other_format = [&] {
+    throw InputError(fmt::format("{}: {} bytes are a tile of heightmap-1.0; quantized-mesh-1.0 is read here",
+                                 one_line(name), bytes.size()));
+  };
+  try {
+    QuantizedMesh tile = decode_mesh(bytes, name);
+    if (tile.triangles.empty() && has_size_of_heightmap(bytes.size())) name_the_other_format();
+    return tile;
+  } catch (const InputError&) {
+    if (has_size_of_heightmap(bytes.size())) name_the_other_format();
+    throw;
+  }
 }
 
 std::uint16_t zig_zag(std::int64_t delta) {

@@ -61,8 +61,9 @@ struct QuantizedMesh {
 };
 
 /// Decodes a tile (github.com/CesiumGS/quantized-mesh, README.md), gzipped or not. Memory is bounded by the
-/// bytes (four times as many, and scenarios/gzip.h), whatever their counts say. Throws InputError, one line
-/// with `name`, the byte (of the inflated tile) and the part, if the bytes end inside a part.
+/// bytes (at most twelve times as many, for two bytes make a normal; and scenarios/gzip.h), whatever their
+/// counts say. Throws InputError, one line with `name`, the byte (of the inflated tile) and the part, if the
+/// bytes end inside a part.
 QuantizedMesh parse_quantized_mesh(std::string_view bytes, std::string_view name);
 QuantizedMesh read_quantized_mesh(const std::filesystem::path& path);
 

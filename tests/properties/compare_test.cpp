@@ -270,6 +270,54 @@ TEST(CompareChecks, FindingsAreKnownByCodeKindMeshAndPlace) {
   EXPECT_THAT(check_lines("\"gap_m\": 0.5", "\"gap_m\": 0.75"), IsEmpty()) << "the same findings";
 }
 
+// Cracks that skirts hid, and that are there without them: the same places, another severity.
+TEST(CompareChecks, AHazardThatBecomesAFaultIsNew) {
+  const std::string hidden = check_with("\"kind\": \"gap\"", "\"kind\": \"gap\", \"severity\": \"hazard\"");
+  const std::string bare = check_with("\"kind\": \"gap\"", "\"kind\": \"gap\", \"severity\": \"fault\"");
+  EXPECT_THAT(lines(compare_texts(hidden, bare)),
+              testing::Contains("worse one.ply: 302 crack: gap at 1, 2, 3 — → found"));
+  EXPECT_THAT(lines(compare_texts(hidden, bare)),
+              testing::Contains("better one.ply: 302 crack: gap (hazard) at 1, 2, 3 found → —"));
+}
+
+// Lists are cut short, counts are not: of every code.
+TEST(CompareChecks, ACodeThatIsNewIsCountedFromNone) {
+  const auto counted = [](const std::string& counts) {
+    return check_with(
+        "\"findings\":",
+        fmt::format("\"findings_total\": 812, \"findings_by_code\": {}, \"findings\":", counts));
+  };
+  const std::string before = counted("{ \"302\": 812 }"), after = counted("{ \"302\": 811, \"306\": 1 }");
+  EXPECT_THAT(lines(compare_texts(before, after)),
+              ElementsAre("worse : findings_by_code.306 0 → 1", "better : findings_by_code.302 812 → 811"));
+  EXPECT_EQ(verdict::findings_only(compare_texts(before, after)).word(), "worse");
+  EXPECT_EQ(lines(compare_texts(counted("{}"), after)).size(), 2u);
+  EXPECT_THAT(lines(compare_texts(kCheck, after)), testing::Not(testing::Contains(HasSubstr("0 → 1"))))
+      << "a file of before the counts";
+}
+
+TEST(CompareChecks, FindingsAloneStillSeeWhatIsJudgedNoLonger) {
+  const Comparison gone = compare_texts(kCheck, check_with("two.ply", "three.ply"));
+  EXPECT_EQ(verdict::findings_only(gone).word(), "worse");
+  const Comparison turned = compare_texts(check_with("\"faulty\"", "\"sound\""), kCheck);
+  EXPECT_EQ(verdict::findings_only(turned).word(), "worse");
+}
+
+// A tile keeps its name, whatever other tiles there are.
+TEST(CompareChecks, TilesAreKnownByTheirPlace) {
+  const auto tiles = [](std::vector<std::string> files) {
+    std::string meshes;
+    for (const std::string& file : files)
+      meshes += fmt::format(R"({}{{"file": "{}", "format": "quantized-mesh", "triangles": 4}})",
+                            meshes.empty() ? "" : ", ", file);
+    return fmt::format(
+        R"({{"schema": "plumbline.check/1", "verdict": "sound", "meshes": [{}], "findings": []}})", meshes);
+  };
+  EXPECT_THAT(lines(compare_texts(tiles({"10/533/383.terrain", "10/533/384.terrain"}),
+                                  tiles({"10/533/383.terrain", "10/533/384.terrain", "10/534/383.terrain"}))),
+              ElementsAre("changed 10/534/383.terrain: mesh — → new"));
+}
+
 TEST(CompareChecks, AListThatIsCutShortDecidesNothing) {
   const std::string cut = check_with("\"findings\":", "\"findings_total\": 812, \"findings\":");
   std::string other = cut;

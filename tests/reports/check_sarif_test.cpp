@@ -107,6 +107,29 @@ TEST(CheckSarif, AResultSaysWhatAndWhere) {
   EXPECT_EQ(crack["properties"]["gap_m"], check.findings[0].finding.gap_m);
 }
 
+// Code scanning refuses an upload with a result that has no location, and opens what the location names.
+TEST(CheckSarif, EveryResultHasAPlaceThatCanBeOpened) {
+  verdict::CheckVerdict check = sample::tiles_check();
+  for (verdict::CheckedMesh& mesh : check.meshes) mesh.path = "out/tiles/" + mesh.file;
+  check.meshes.push_back(check.meshes.front());
+  verdict::CheckFinding missing = sample::check_finding(oracle::FindingCode::tile_encoding, "missing_tile",
+                                                        verdict::kNoMesh, {1, 2, 3}, {1, 2, 3});
+  missing.file = "out/tiles/layer.json";
+  check.findings.push_back(missing);
+  const Json log = sarif_of(check);
+  expect_schema(log);
+  const Json& run = log["runs"][0];
+  const auto uri = [](const Json& result) {
+    return result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"].get<std::string>();
+  };
+  for (const Json& result : run["results"]) ASSERT_EQ(result["locations"].size(), 1u) << result;
+  EXPECT_EQ(uri(run["results"].back()), "out/tiles/layer.json");
+  EXPECT_EQ(uri(run["results"][0]), "out/tiles/9/533/383.terrain");
+  std::set<std::string> artifacts;
+  for (const Json& artifact : run["artifacts"])
+    EXPECT_TRUE(artifacts.insert(artifact["location"]["uri"]).second) << "the schema wants each once";
+}
+
 TEST(CheckSarif, NamesOfFilesBecomeReferences) {
   verdict::CheckVerdict check = sample::terrain_check();
   const auto uri = [&](const std::string& file) {

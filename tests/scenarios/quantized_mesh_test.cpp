@@ -245,6 +245,18 @@ TEST(QuantizedMesh, RefusesCountsThatTheBytesDoNotHold) {
   EXPECT_THAT(input_error([] { read_quantized_mesh("/dev/zero"); }), HasSubstr("is a device"));
 }
 
+// Some sound tiles are as long as one of heightmap-1.0.
+TEST(QuantizedMesh, IsKnownByWhatItIsNotByItsLength) {
+  for (const std::size_t size : {std::size_t{8452}, std::size_t{73987}}) {
+    std::string tile = by_hand();
+    tile += extension(9, std::string(size - tile.size() - 5, 'x'));
+    ASSERT_EQ(tile.size(), size);
+    EXPECT_EQ(parse_quantized_mesh(tile, "a").triangles.size(), 2u);
+    EXPECT_THAT(input_error([&] { parse_quantized_mesh(std::string(size, '\x5a'), "a.terrain"); }),
+                HasSubstr("heightmap-1.0"));
+  }
+}
+
 TEST(QuantizedMesh, EncodesNothingThatTheFormatCannotSay) {
   const QuantizedMesh tile = parse_quantized_mesh(by_hand(), "a");
   QuantizedMesh bad = tile;
