@@ -315,7 +315,8 @@ TEST(CompareChecks, TilesAreKnownByTheirPlace) {
   };
   EXPECT_THAT(lines(compare_texts(tiles({"10/533/383.terrain", "10/533/384.terrain"}),
                                   tiles({"10/533/383.terrain", "10/533/384.terrain", "10/534/383.terrain"}))),
-              ElementsAre("changed 10/534/383.terrain: mesh — → new"));
+              ElementsAre("changed 10/534/383.terrain: mesh — → new",
+                          "changed : 10/534/383.terrain: format — → quantized-mesh"));
 }
 
 TEST(CompareChecks, AListThatIsCutShortDecidesNothing) {
