@@ -24,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A refusal needs no work; the rest is room for a slow, sanitized build on a busy machine.
-constexpr double kRefusalLimit_s = 5;
+constexpr double kRefusalLimit_s = 15;
 
 class BadInput : public ProgramTest {
  protected:
@@ -32,7 +32,7 @@ class BadInput : public ProgramTest {
   void expect_refused(const std::vector<std::string>& arguments,
                       const ::testing::Matcher<std::string>& message) {
     const std::vector<std::string> before = files();
-    const Outcome outcome = run(arguments, 4 * kRefusalLimit_s);
+    const Outcome outcome = run(arguments, 2 * kRefusalLimit_s);
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_LT(outcome.seconds, kRefusalLimit_s);
     EXPECT_EQ(outcome.out, "");
