@@ -42,7 +42,8 @@ const std::vector<FindingDescription>& finding_catalogue() {
         {"center", "a hazard: the header's center is far from the tile"},
         {"normal", "normals are missing or zero; as a hazard: one points into the ground"},
         {"trailing", "a hazard: bytes that belong to nothing"},
-        {"missing_tile", "layer.json advertises tiles that are not there"}}},
+        {"missing_tile", "layer.json advertises tiles that are not there"},
+        {"misplaced_tile", "a hazard: a file lies where the grid has no place, so no client asks for it"}}},
       {nothing_judged, "nothing_judged",
        "An oracle or a law had nothing to judge: no frame, no triangle in the picture, a precondition that "
        "never "
