@@ -17,19 +17,21 @@ namespace plumbline::oracle {
 /// O7, general meshes (ORACLES O7): what they are in space, whatever camera looks at them. Decided by CGAL's
 /// Polygon Mesh Processing; one thread, so the bits depend on the meshes alone.
 
-/// Pairs of triangles that meet elsewhere than in a corner or an edge they share, each with the lesser index
-/// first, sorted. Exact. Triangles without area, or with a corner that is not finite, which
-/// oracle::check_soundness reports, are left out. Nothing if the mesh is no oriented manifold (nobody's
-/// business here: check_soundness says where).
+/// Two triangles of a mesh, the lesser index first.
 using TrianglePair = std::array<std::uint32_t, 2>;
+
+/// Pairs of triangles that meet elsewhere than in a corner or an edge they share, sorted. Exact. Triangles
+/// without area, or with a corner that is not finite, which oracle::check_soundness reports, are left out.
+/// Nothing if the mesh is no oriented manifold (nobody's business here: check_soundness says where).
 std::optional<std::vector<TrianglePair>> self_intersections(const Mesh& mesh);
 
-/// The same of a mesh that may be anything: all pairs are counted, `most` of them kept (the same each time),
-/// for their number may grow with the square of the triangles'.
+/// Some of them, and how many there are.
 struct SomeIntersections {
   std::vector<TrianglePair> pairs;
   std::size_t total = 0;
 };
+/// The same of a mesh that may be anything: all pairs are counted, `most` of them kept (the same each time),
+/// for their number may grow with the square of the triangles'.
 std::optional<SomeIntersections> some_self_intersections(const Mesh& mesh, std::size_t most);
 
 /// A distance that is known to lie within [least_m, most_m].
