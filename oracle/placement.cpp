@@ -36,6 +36,7 @@ struct Arrangement {
 struct Fit {
   double rms_m = std::numeric_limits<double>::infinity();
   std::size_t vertices = 0;
+  double relief_m = 0;  ///< standard deviation of the DEM's heights there: what a level plane would be off
 };
 
 struct Alternative {
@@ -94,15 +95,22 @@ class Search {
 
 Fit Search::fit(const std::vector<Vec3>& vertices, const Arrangement& arrangement) const {
   Fit fit;
-  double squares = 0;
+  double squares = 0, ground_sum = 0, ground_squares = 0;
+  const double datum_m = terrain_.heights_m.front();
   for (const Vec3& vertex : vertices) {
     const Vec3 p = arrangement(vertex);
     const std::optional<double> ground = height(p);
     if (!ground) continue;
     squares += (p.z - *ground) * (p.z - *ground);
+    ground_sum += *ground - datum_m;
+    ground_squares += (*ground - datum_m) * (*ground - datum_m);
     ++fit.vertices;
   }
-  if (fit.vertices > 0) fit.rms_m = std::sqrt(squares / static_cast<double>(fit.vertices));
+  if (fit.vertices == 0) return fit;
+  const auto count = static_cast<double>(fit.vertices);
+  fit.rms_m = std::sqrt(squares / count);
+  fit.relief_m =
+      std::sqrt(std::max(0.0, ground_squares / count - (ground_sum / count) * (ground_sum / count)));
   return fit;
 }
 
@@ -115,6 +123,9 @@ void Search::consider(Misplacement what, const Arrangement& arrangement, const F
   if (!(fit.rms_m <= kMisplacementShare * given_.rms_m)) return;
   constexpr double kBetter = 0.9;
   constexpr double kRounding = 0x1p-30;  // of the given one: two exact fits differ by roundings only
+  // Any surface, lifted to the DEM's mean, is better than the same elsewhere, and matches nothing.
+  constexpr double kLikeness = 0.5;
+  if (fit.rms_m > kLikeness * fit.relief_m + kRounding * given_.rms_m) return;
   const bool of_a_kind = best_ && best_->what.kind == what.kind;
   if (best_ && !(fit.rms_m < (of_a_kind ? 1 : kBetter) * best_->fit.rms_m - kRounding * given_.rms_m)) return;
   best_ = Alternative{std::move(what), arrangement, fit};

@@ -205,8 +205,10 @@ std::string headline_words(const CheckVerdict& verdict) {
     // What is wrong comes first.
     if (!proved.empty() && proved.size() == verdict.meshes.size())
       parts.insert(verdict.sound ? parts.begin() : parts.end(),
-                   surfaces.size() == proved.size() ? "no crack, hole, overlap or fold"
-                                                    : "no fault in how the triangles hang together");
+                   surfaces.size() == proved.size()
+                       ? verdict.seams.empty() ? "no crack, hole, overlap or fold"
+                                               : "no mesh has a crack, hole, overlap or fold inside"
+                       : "no fault in how the triangles hang together");
     if (!verdict.seams.empty()) parts.push_back("seams: " + seam_totals_words(seam_totals(verdict)));
   }
   if (const std::string hazards = code_words(verdict, true, true); !hazards.empty()) {

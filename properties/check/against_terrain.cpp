@@ -123,6 +123,11 @@ class AgainstTerrain {
       return;
     }
     judge_placement(placed, out);
+    if (laid_.guessed && laid_.placing.name == "fit" && out.better_match.empty())
+      add(FindingCode::nothing_judged, "stretched", laid_.placing.from_samples(error.at),
+          "no placing lays the mesh over the DEM but stretching its box over it; if that is meant, say "
+          "--placing "
+          "fit");
     judge_declared(out);
     if (request.pictures) {
       oracle::ErrorMap map = oracle::vertical_error_map(placed, dem.samples, dem.has_data, kErrorMapPx,

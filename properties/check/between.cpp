@@ -80,6 +80,7 @@ class Between {
       look_for_slit(a, b, std::min(reach[a], reach[b]), seam.has_value());
     }
     judge_cover();
+    look_for_loners();
   }
 
  private:
@@ -108,6 +109,39 @@ class Between {
         slit->vertices, slit->vertices == 1 ? "vertex passes" : "vertices pass",
         length_text(out.finding.distance_m));
     exam_.between.push_back(std::move(out));
+  }
+
+  /// Meshes of which no border meets another's: a gap wider than what a slit is looked for in would pass
+  /// unseen.
+  void look_for_loners() {
+    std::vector<bool> met(exam_.subjects.size(), false);
+    for (const verdict::SeamVerdict& seam : exam_.verdict.seams) met[seam.mesh] = met[seam.other_mesh] = true;
+    for (const verdict::CheckFinding& found : exam_.between) {
+      if (found.mesh != verdict::kNoMesh && found.other_mesh != verdict::kNoMesh)
+        met[found.mesh] = met[found.other_mesh] = true;
+    }
+    std::vector<std::uint32_t> loners;
+    std::size_t meshes = 0;
+    for (std::uint32_t k = 0; k < exam_.subjects.size(); ++k) {
+      if (!exam_.subjects[k].facts.terrain || exam_.subjects[k].tile) continue;
+      ++meshes;
+      if (!met[k]) loners.push_back(k);
+    }
+    if (meshes < 2 || loners.empty()) return;
+    verdict::CheckFinding found;
+    found.finding.code = FindingCode::nothing_judged;
+    found.finding.kind = "no_neighbour";
+    found.finding.severity = Severity::hazard;
+    found.mesh = loners.front();
+    const verdict::Extent& box = exam_.subjects[found.mesh].facts.box;
+    found.finding.at = box.low;
+    found.at = exam_.frame.to_file(box.low);
+    found.message = fmt::format(
+        "{} of {} meshes share no border with another, this the first: if they should fit together, there is "
+        "a gap; "
+        "nothing was compared",
+        loners.size(), meshes);
+    exam_.between.push_back(std::move(found));
   }
 
   static bool is_told(const Subject& subject, const verdict::CheckFinding& found) {
@@ -164,7 +198,7 @@ class Between {
       };
       const std::size_t filled = std::erase_if(subject.findings, is_filled);
       subject.facts.conformity.hole -= filled;
-      if (filled > 0) subject.facts.domain += ", with the meshes that fill its holes";
+      if (filled > 0) subject.facts.domain += " with the meshes that fill its holes";
     }
   }
 

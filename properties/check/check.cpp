@@ -109,8 +109,17 @@ void gather(Examination& exam, std::vector<CheckFinding> more) {
   }
 }
 
-void tell_unjudged(Examination& exam) {
+/// What an object leaves open, and what was not judged of it.
+void tell_objects(Examination& exam) {
   for (const Subject& subject : exam.subjects) {
+    if (!subject.facts.terrain && subject.open_edges > 0)
+      exam.verdict.notes.push_back(
+          fmt::format("{} is not closed: {} edge{} of one triangle alone: a hole, or a sheet",
+                      subject.facts.name, subject.open_edges, subject.open_edges == 1 ? "" : "s"));
+    if (subject.inside_out)
+      exam.verdict.notes.push_back(
+          fmt::format("{} is closed and its triangles face inwards: back-face culling shows its far side",
+                      subject.facts.name));
     if (subject.facts.terrain || subject.facts.self_intersections_judged) continue;
     exam.verdict.notes.push_back(
         fmt::format("{}: self-intersections were not judged: {}", subject.facts.name,
@@ -133,7 +142,7 @@ CheckOutcome check(const CheckRequest& request) {
   // Each by itself: what threads do in which order nobody sees.
   tbb::parallel_for(std::size_t{0}, exam.subjects.size(),
                     [&](std::size_t k) { judge_inside(exam.subjects[k], exam); });
-  tell_unjudged(exam);
+  tell_objects(exam);
   apply_stated_skirts(exam);
   judge_between(exam);
   CheckOutcome out;

@@ -72,6 +72,8 @@ struct Subject {
   std::vector<Vec3> places;  ///< tiles: longitude, latitude (degrees), height of each vertex
   std::vector<verdict::CheckFinding> findings;
   bool held_to_rectangle = false;
+  std::size_t open_edges = 0;  ///< objects: edges that one triangle has alone
+  bool inside_out = false;     ///< objects: closed, and every triangle faces inwards
 };
 
 struct Examination {

@@ -260,6 +260,7 @@ class Inside {
     const oracle::ConformityReport report = oracle::check_soundness(subject_.mesh);
     facts.conformity = report.counts;
     for (const Finding& finding : report.findings) add(finding);
+    measure_openness();
     if (subject_.mesh.triangles.size() > kMostIntersected) return;
     const auto some = oracle::some_self_intersections(subject_.mesh, kListedOfACode);
     if (!some) return;  // no manifold: judged by its own findings, and the text claims nothing
@@ -272,6 +273,30 @@ class Inside {
       finding.at = meeting_place(subject_.mesh, pair[0], pair[1]);
       add(finding);
     }
+  }
+
+  /// Edges that one triangle has alone, and which way round a closed surface is.
+  void measure_openness() {
+    const Mesh& mesh = subject_.mesh;
+    std::vector<std::uint64_t> edges;
+    double volume = 0;
+    const auto count = mesh.positions.size();
+    for (const auto& t : mesh.triangles) {
+      if (t[0] >= count || t[1] >= count || t[2] >= count) return;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        edges.push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b));
+      }
+      const Vec3 o = mesh.positions[mesh.triangles.front()[0]];
+      volume += dot(mesh.positions[t[0]] - o, cross(mesh.positions[t[1]] - o, mesh.positions[t[2]] - o));
+    }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size();) {
+      const std::size_t first = i;
+      while (i < edges.size() && edges[i] == edges[first]) ++i;
+      subject_.open_edges += i - first == 1;
+    }
+    subject_.inside_out = subject_.open_edges == 0 && volume < 0;
   }
 
   void judge_shape() {

@@ -52,19 +52,27 @@ struct Facing {
 /// faces the other way. A closed object's cancels to nothing.
 constexpr double kTerrainShare = 0.5;
 
+/// Shares that differ by less differ by the rounding of millions of areas.
+constexpr double kSameShare = 1e-9;
+
 struct Guess {
   Frame::Up up = Frame::Up::z;
   bool terrain = false;
 };
 
+/// z where nothing folds over in it, though ground be steeper than 45 degrees one way; else the axis along
+/// which most faces.
 Guess guess(const Facing& facing) {
-  Guess out;
+  constexpr double kMuch = 0.1;  // of the largest of the three areas: a few slivers' facing tells nothing
   const std::array<double, 3> sum{std::fabs(facing.sum.x), std::fabs(facing.sum.y), std::fabs(facing.sum.z)};
   const std::array<double, 3> size{facing.size.x, facing.size.y, facing.size.z};
   std::size_t best = 2;
-  for (const std::size_t k : {std::size_t{1}, std::size_t{0}}) {
-    if (sum[k] > sum[best]) best = k;
+  if (!(size[2] > kMuch * std::max(size[0], size[1]) && sum[2] >= (1 - kSameShare) * size[2])) {
+    for (const std::size_t k : {std::size_t{1}, std::size_t{0}}) {
+      if (sum[k] > sum[best]) best = k;
+    }
   }
+  Guess out;
   out.up = best == 2 ? Frame::Up::z : best == 1 ? Frame::Up::y : Frame::Up::x;
   out.terrain = sum[best] > kTerrainShare * size[best];
   return out;
@@ -210,6 +218,16 @@ void settle_frame(Examination& exam) {
     subject->facts.terrain = request.kind == CheckRequest::Kind::guess
                                  ? std::fabs(own.sum.z) > kTerrainShare * own.size.z
                                  : request.kind == CheckRequest::Kind::terrain;
+    if (subject->facts.terrain && own.sum.z < -kTerrainShare * own.size.z && !exam.frame.turned)
+      verdict.notes.push_back(
+          fmt::format("{} runs clockwise as a whole, which the others do not: turn its triangles over",
+                      subject->facts.name));
+    if (const Guess by_itself = guess(facings[k]); request.up == CheckRequest::Up::guess &&
+                                                   meshes.size() > 1 && by_itself.terrain &&
+                                                   by_itself.up != exam.frame.up)
+      verdict.notes.push_back(
+          fmt::format("{} by itself looks as if {} were up in it; one axis holds for all, here {}",
+                      subject->facts.name, axis_name(by_itself.up), axis_name(exam.frame.up)));
     if (request.kind == CheckRequest::Kind::guess && !subject->facts.terrain)
       verdict.notes.push_back(
           fmt::format("{} is taken for an object in space, since its faces cancel in "

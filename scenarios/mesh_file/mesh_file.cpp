@@ -99,6 +99,7 @@ MeshFile parse(std::string_view bytes, std::string_view name,
     mesh.format = format;
     return mesh;
   };
+  if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", one_line(name)));
   if (bytes.starts_with("glTF") || ends_in(".glb") || ends_in(".gltf"))
     return of("glTF", parse_gltf(bytes, name, folder));
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return of("PLY", parse_ply(bytes, name));
@@ -112,8 +113,8 @@ MeshFile parse(std::string_view bytes, std::string_view name,
       return of("STL", parse_stl_text(bytes, name));
     if (bytes.size() >= 84) return of("STL", parse_stl_binary(bytes, name));
   }
-  throw InputError(
-      fmt::format("{}: no mesh format that is read here; PLY, OBJ, OFF, STL and glTF are", one_line(name)));
+  throw InputError(fmt::format(
+      "{}: no mesh format that is read here; PLY, OBJ, OFF, STL, glTF and .terrain are", one_line(name)));
 }
 
 }  // namespace

@@ -248,7 +248,77 @@ TEST_F(CheckTogether, AReferenceIsTurnedAsTheMeshIs) {
   EXPECT_EQ(verdict.reference->likeness.normal_max_deg, 0);
   EXPECT_EQ(verdict.reference->likeness.turned_share, 0);
   EXPECT_FALSE(verdict.reference->declared_broken);
-  EXPECT_THAT(verdict.notes, testing::Contains(HasSubstr("no finer")));
+}
+
+// Nothing folds over z there, however steep it is.
+TEST_F(CheckTogether, SteepGroundKeepsItsUp) {
+  const Mesh steep = test::grid(6, 6, 10, [](int c, int r) { return 15.0 * c + (c * r % 3); });
+  const CheckVerdict verdict = judged({steep});
+  EXPECT_TRUE(verdict.sound);
+  EXPECT_EQ(verdict.frame, "the files' own coordinates, z up, metres");
+}
+
+TEST_F(CheckTogether, AMeshThatMeetsNoOtherIsSaidToBeAlone) {
+  const CheckVerdict apart = judged({square(0, 10, 0), square(13, 23, 0)});
+  EXPECT_TRUE(apart.sound) << "a hazard";
+  ASSERT_NE(first(apart, FindingCode::nothing_judged), nullptr);
+  EXPECT_EQ(first(apart, FindingCode::nothing_judged)->finding.kind, "no_neighbour");
+  CheckRequest strict;
+  strict.strict = true;
+  EXPECT_FALSE(judged({square(0, 10, 0), square(13, 23, 0)}, strict).sound);
+}
+
+TEST_F(CheckTogether, ABoundThatIsUndecidedIsNoPass) {
+  CheckRequest request;
+  request.reference = folder_.path() / "reference.obj";
+  request.declared_m = 0;
+  write_whole_file(request.reference, test::obj_bytes(square(0, 10, 0, true)));
+  const CheckVerdict verdict = judged({square(0, 10, 0)}, request);
+  EXPECT_FALSE(verdict.sound);
+  ASSERT_NE(first(verdict, FindingCode::nothing_judged), nullptr);
+  EXPECT_THAT(first(verdict, FindingCode::nothing_judged)->message, HasSubstr("undecided"));
+}
+
+TEST_F(CheckTogether, AMeshBesideItsDemIsNotStretchedOverIt) {
+  write_whole_file(folder_.path() / "dem.asc",
+                   test::asc(9, 9, 30, [](int c, int r) { return 10.0 * c + r * r; }));
+  const auto ground = [](int c, int r) { return 10.0 * c + r * r; };
+  CheckRequest request;
+  request.terrain = folder_.path() / "dem.asc";
+  request.declared_m = 1;
+  const Mesh far = test::grid(9, 9, 30, ground, {1e6, 0});
+  const CheckVerdict guessed = judged({far}, request);
+  EXPECT_FALSE(guessed.sound);
+  ASSERT_NE(first(guessed, FindingCode::nothing_judged), nullptr);
+  EXPECT_EQ(first(guessed, FindingCode::nothing_judged)->finding.kind, "stretched");
+  request.placing = "fit";
+  EXPECT_TRUE(judged({far}, request).sound) << "as said";
+}
+
+// Lifted to the DEM's mean, any surface is better; it still matches nothing.
+TEST_F(CheckTogether, AFlatMeshMatchesNoHillsHoweverItIsLifted) {
+  const auto hills = [](int c, int r) { return 300.0 + 40 * ((c * 7 + r * 5) % 6) + 11 * (r % 4); };
+  write_whole_file(folder_.path() / "dem.asc", test::asc(17, 17, 30, hills));
+  CheckRequest request;
+  request.terrain = folder_.path() / "dem.asc";
+  const CheckVerdict flat = judged({test::grid(17, 17, 30, [](int, int) { return 0.0; })}, request);
+  ASSERT_TRUE(flat.terrain.has_value());
+  EXPECT_EQ(flat.terrain->better_match, "");
+  const CheckVerdict lifted =
+      judged({test::grid(17, 17, 30, [&](int c, int r) { return hills(c, r) - 90; })}, request);
+  EXPECT_THAT(lifted.terrain->better_match, HasSubstr("lifted"));
+}
+
+TEST_F(CheckTogether, AnObjectSaysWhetherItIsClosedAndWhichWayRound) {
+  Mesh solid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  CheckRequest request;
+  request.kind = CheckRequest::Kind::object;
+  EXPECT_THAT(judged({solid}, request).notes, testing::IsEmpty());
+  Mesh turned = solid;
+  for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+  EXPECT_THAT(judged({turned}, request).notes, testing::Contains(HasSubstr("face inwards")));
+  solid.triangles.pop_back();
+  EXPECT_THAT(judged({solid}, request).notes, testing::Contains(HasSubstr("not closed: 3 edges")));
 }
 
 // A game engine's mesh has y up; the pose is given in its own coordinates.
