@@ -129,7 +129,7 @@ TEST(MeshFile, SaysItsFormat) {
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
       "z\nend_header\n";
   EXPECT_EQ(parse_mesh(ply, "a").format, "PLY");
-  EXPECT_EQ(parse_mesh("", "a.obj").format, "OBJ");
+  EXPECT_EQ(parse_mesh("# nothing\n", "a.obj").format, "OBJ");
   EXPECT_EQ(parse_mesh("OFF 0 0 0", "a").format, "OFF");
   EXPECT_EQ(parse_mesh("solid\nendsolid\n", "a.stl").format, "STL");
   EXPECT_EQ(parse_mesh(std::string(84, '\0'), "a.stl").format, "STL");
@@ -176,7 +176,8 @@ TEST(MeshFile, BadInputIsOneClearLine) {
   EXPECT_THAT(message(std::string(84, '\xff'), "a.stl"), HasSubstr("4294967295 facets"));
   EXPECT_THAT(message("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n", "a.stl"),
               HasSubstr("1 vertices instead of 3"));
-  EXPECT_THAT(message("PK", "a.zip"), HasSubstr("PLY, OBJ, OFF, STL and glTF"));
+  EXPECT_THAT(message("PK", "a.zip"), HasSubstr("PLY, OBJ, OFF, STL, glTF and .terrain"));
+  EXPECT_THAT(message("", "a.ply"), HasSubstr("a.ply: the file is empty"));
   EXPECT_THROW(read_mesh_file("/no/such/file.ply"), InputError);
   EXPECT_THROW(read_mesh_file("/dev/zero"), InputError);
 }
