@@ -22,7 +22,6 @@
 namespace plumbline {
 namespace {
 
-using oracle::FindingCode;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using verdict::CheckFinding;
