@@ -28,7 +28,6 @@ using oracle::Severity;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
-using ::testing::Not;
 using ::testing::StartsWith;
 using verdict::CheckFinding;
 using verdict::CheckVerdict;
