@@ -103,7 +103,8 @@ void sweep(const Ranges& ranges, Files file, Files files_end, TileAvailability& 
 
 /// Adds missing tiles of one level, by address. `patience` bounds the steps: ranges that overlap pass over
 /// the same tiles again.
-void list_missing(const TileSet& set, Ranges ranges, std::size_t& patience, std::vector<TileAddress>& out) {
+void list_missing(const TileSet& set, const Ranges& ranges, std::size_t& patience,
+                  std::vector<TileAddress>& out) {
   std::vector<TileAddress> found;
   for (const TileRange& range : ranges) {
     std::size_t of_range = 0;

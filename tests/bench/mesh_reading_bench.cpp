@@ -170,7 +170,8 @@ int main(int count, char** arguments) {
                           benchmark::DoNotOptimize(copy.data());
                           benchmark::ClobberMemory();
                         }));
-      read_s = std::min(read_s, seconds([&] { polygons = parse_mesh(bytes, name).polygons(); }));
+      read_s =
+          std::min(read_s, seconds([&, &file = name] { polygons = parse_mesh(bytes, file).polygons(); }));
     }
     if (polygons != mesh.triangles.size()) {
       fmt::print(stderr, "{}: {} polygons\n", name, polygons);

@@ -16,7 +16,6 @@
 namespace plumbline::compare {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
